@@ -4,7 +4,7 @@
 
 namespace tushar {
 
-/// All components and analyses, linked statically: for tests and other programs that load no modules.
+/// All components and analyses, linked statically, for tests and other programs that do not load modules.
 simulation::Catalogue catalogue();
 
 }  // namespace tushar

@@ -17,7 +17,7 @@ namespace {
 
 void complain(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
-/// Adds a dash to Uintah's options: -validate becomes --validate. Single letters stay.
+/// Adds a dash to Uintah's options: -validate becomes --validate. Options of a single letter are unchanged.
 std::string withTwoDashes(const std::string& word) {
   const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
   return oneDash ? "-" + word : word;
@@ -42,7 +42,7 @@ double checkpointInterval(const std::string& text) {
   return *seconds;
 }
 
-/// Names of all options that are shown, with two dashes.
+/// Names of all documented options, with two dashes.
 std::vector<std::string> optionNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
@@ -51,7 +51,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// The words in the order for CLI11, the last first; the word after --petsc is not changed.
+/// The words in the order that CLI11 expects, the last one first. The word after --petsc is not changed.
 std::vector<std::string> backwards(const std::vector<std::string>& given) {
   std::vector<std::string> words;
   for (const std::string& word : given)
@@ -60,7 +60,7 @@ std::vector<std::string> backwards(const std::vector<std::string>& given) {
   return words;
 }
 
-/// Reports the invalid words of the command line: unknown options, as given, or a second scene.
+/// Reports invalid words of the command line: unknown options, in the form that the user wrote, or a second scene.
 void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
   const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
   bool options = false;
@@ -73,7 +73,7 @@ void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, c
   if (!options) complain(fmt::format("only one scene can be run: found '{}' after '{}'", unknown.front(), scene));
 }
 
-/// Declares the options for patches, threads and writers.
+/// Declares the options for patches, threads, and ranks that write.
 void declareWorkers(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::string>(
       "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
@@ -89,7 +89,7 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--behind", arguments.run.behind,
                  "largest part of an output, in MB, that a writer may keep in memory while the run continues; by "
-                 "default the average part of a rank, at least 16. 0: the run waits until the output is written")
+                 "default the average share of a rank, at least 16. 0: the run waits until the output is written")
       ->check(CLI::Range(0, 1'000'000));
 }
 
@@ -120,14 +120,14 @@ void declare(CLI::App& app, Arguments& arguments) {
       "write a checkpoint at this interval of wall time, such as 30s, 10min or 2h, in addition to those of the scene");
   app.add_option("--load", arguments.modules, "load a module of your own: a shared library; may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
+  app.add_option("--output", arguments.run.outputFolder, "create the .uda folder in this folder");
   app.add_option("--petsc", arguments.petsc,
                  "options for PETSc, as one quoted argument: --petsc \"-ksp_monitor -ksp_type gmres\"");
-  app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
+  app.add_flag("--quiet", arguments.run.quiet, "print neither progress nor report on the screen");
   app.add_flag("--check,--validate", arguments.check,
                "check the scene and compute its initial state, without running or writing anything");
   app.add_option("--dry-run", arguments.dryRun,
-                 "compile the tasks of one rank out of N and print their cost, without running anything")
+                 "compile the tasks of one of N ranks and print their cost, without a run")
       ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule,
                "print the tasks in order, what they read and write, and which are left out");
@@ -143,14 +143,15 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
 }
 
-/// The problem with the command line, in a sentence.
+/// Describes the problem with the command line in a sentence.
 std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   const std::string text = CLI::FailureMessage::simple(app, error);
   const std::size_t line = text.find('\n');
   return withNumber(text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
 }
 
-/// `--check --json SCENE`: the word after --json is the scene if there is no other.
+/// Handles `--check --json SCENE`: if no other word is the scene, the word after --json is the scene rather than a
+/// file.
 void settleJson(const CLI::App& app, Arguments& arguments) {
   arguments.asksForJson = app.count("--json") > 0;
   if (arguments.check && arguments.scene.empty()) std::swap(arguments.scene, arguments.run.jsonPath);

@@ -6,7 +6,7 @@ namespace tushar {
 
 namespace {
 
-// bash takes a word apart at = : and @, and replaces the last part only; so _sus_offer leaves out what stands before.
+// bash splits a word at = : and @, and replaces only the last part; so _sus_offer leaves out the parts before it.
 constexpr const char* script = R"script(# Completion of sus in bash: source <(sus --completion bash)
 
 # Offers those of the words, a line each, that go on with what has been typed.

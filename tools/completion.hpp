@@ -5,8 +5,8 @@
 
 namespace tushar {
 
-/// A script with which bash completes the arguments of sus: options, scenes, folders of runs, the `manuals` for
-/// --describe and, after --set, the paths of tags in the scene.
+/// A script with which bash completes the arguments of sus: `options`, scenes, folders of runs, `manuals` after
+/// --describe, and the paths of the scene's tags after --set.
 std::string bashCompletion(const std::vector<std::string>& options, const std::vector<std::string>& manuals);
 
 }  // namespace tushar

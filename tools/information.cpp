@@ -20,7 +20,7 @@ namespace tushar {
 
 namespace {
 
-/// Components, analysis modules and shapes.
+/// Prints the components, analysis modules and shapes.
 void printList(const simulation::Catalogue& known) {
   const auto components = known.components();
   const auto analyses = known.analyses();
@@ -32,7 +32,7 @@ void printList(const simulation::Catalogue& known) {
   for (const std::string& name : input::geometryNames()) fmt::print("  {}\n", name);
 }
 
-/// The topics of --describe.
+/// The names that --describe accepts.
 std::vector<std::string> manualNames(const simulation::Catalogue& known) {
   std::vector<std::string> names = known.componentNames();
   for (const std::string& other : known.analysisNames()) names.push_back(other);
@@ -72,7 +72,7 @@ void printSchema(const std::string& language, const simulation::Catalogue& known
                             "contain whatever any of them allows. ");
 }
 
-/// A scene, or the folder of a run.
+/// Prints the paths of all values in a scene; `given` is the scene or the folder of a run.
 void printPaths(const std::string& given) {
   const bool isFolder = std::filesystem::is_directory(given);
   input::Diagnostics diagnostics;

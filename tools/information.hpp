@@ -6,8 +6,8 @@
 
 namespace tushar {
 
-/// Prints information about sus itself: version, lists, manuals, schemas, completion. The exit code. Throws InputError
-/// for a scene whose paths are asked for and that cannot be read.
+/// Prints information about sus itself: version, lists, manuals, schemas, completion. Returns the exit code. Throws
+/// InputError if paths of a scene are requested and the scene cannot be read.
 ExitCode answer(const Arguments& arguments, const simulation::Catalogue& known);
 
 }  // namespace tushar

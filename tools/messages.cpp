@@ -17,7 +17,7 @@ struct Family {
   std::vector<std::string> words;
 };
 
-/// The texts in quotes up to the bracket that closes the list.
+/// The quoted texts in `list`, up to the bracket that closes the list.
 std::vector<std::string> textsIn(std::string_view list) {
   std::vector<std::string> texts;
   bool isQuoted = false;
@@ -43,7 +43,7 @@ std::vector<Family> readFamilies(std::string_view toml) {
   return families;
 }
 
-/// Number of letters of the words that occur in a message in this order; 0 if they do not.
+/// Number of letters of the fixed parts of `words` if they occur in a message in this order, otherwise 0.
 std::size_t lettersIn(const std::string& message, std::string_view words) {
   std::size_t letters = 0, at = 0;
   while (true) {

@@ -1,6 +1,6 @@
-// Ends sus with a sentence, not by SIGILL, where the processor lacks instructions for which sus was compiled. The
-// dynamic loader calls what is in .preinit_array of a program before the initialisers of its libraries, that is, before
-// any instruction that may be missing. The functions here contain only instructions that every x86-64 has.
+// Ends sus with a sentence, rather than by SIGILL, if the processor lacks instructions for which sus was compiled. The
+// dynamic loader calls the functions in .preinit_array of a program before the initialisers of its libraries, and thus
+// before any instruction that may be missing. The functions here contain only instructions that every x86-64 has.
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <unistd.h>
 
@@ -8,13 +8,13 @@
 
 #define TUSHAR_ANY_PROCESSOR [[gnu::target("arch=x86-64")]]
 #define TUSHAR_TEXT(words) #words
-/// `name` if the compiler used these instructions (it then defines the macro as 1) and the processor lacks them;
-/// otherwise the value that follows.
+/// `name` if the compiler used these instructions and the processor lacks them; otherwise the value that follows. A
+/// compiler that uses them defines `macro` as 1.
 #define TUSHAR_IF_MISSING(macro, name) TUSHAR_TEXT(macro)[0] == '1' && !__builtin_cpu_supports(name) ? name:
 
 namespace {
 
-/// The first set of instructions that is missing; a null pointer if there is none.
+/// The first required instruction set that the processor lacks; a null pointer if there is none.
 TUSHAR_ANY_PROCESSOR const char* missingInstructions() {
   __builtin_cpu_init();
   // clang-format off
@@ -45,7 +45,7 @@ TUSHAR_ANY_PROCESSOR void say(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(1);
 }
 
-/// Called before main.
+/// Checks the processor; called before main.
 TUSHAR_ANY_PROCESSOR void checkProcessor() {
   const char* const missing = missingInstructions();
   if (missing == nullptr) return;

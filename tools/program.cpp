@@ -31,7 +31,7 @@ namespace tushar {
 
 namespace {
 
-/// The start time of the process: the current time minus the processor time used.
+/// The start time of the process, estimated as the current time minus the processor time used.
 std::chrono::steady_clock::time_point processStart() {
   const double used = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   return std::chrono::steady_clock::now() -
@@ -43,7 +43,8 @@ void writeFile(const std::string& path, const std::string& text) {
   if (!(file << text) || !file.flush()) throw FileError(fmt::format("{}: cannot be written", path));
 }
 
-/// Throws FileError now rather than after a long run; leaves no file behind.
+/// Throws FileError if a file cannot be written, so that this is not found only after a long run. Leaves no file
+/// behind.
 void checkWritable(const std::string& path) {
   const bool existed = std::filesystem::exists(path);
   if (!std::ofstream(path, std::ios::app)) throw FileError(fmt::format("{}: cannot be written", path));
@@ -52,7 +53,7 @@ void checkWritable(const std::string& path) {
 
 void warn(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
-/// Finds the checkpoint from which to continue; the first rank reports damaged ones that it finds.
+/// Finds the checkpoint from which the run continues. The first rank reports the damaged ones that it finds.
 simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
   const simulation::Restart restart = scene::findRestart(arguments.scene, arguments.checkpoint, ranks);
   if (!ranks.isFirst() || restart.notes.empty()) return restart;
@@ -61,8 +62,8 @@ simulation::Restart findRestart(const Arguments& arguments, const mpi::Communica
   return restart;
 }
 
-/// Adds the checkpoints that the command line requests. A scene without <DataArchiver> has no name for the folder of
-/// its run.
+/// Adds the checkpoints requested on the command line. `name` gives the run a folder if the scene has no
+/// <DataArchiver>.
 void addCheckpoints(const Arguments& arguments, const std::filesystem::path& name,
                     simulation::ArchiveSettings& archive) {
   if (arguments.checkpointInterval) simulation::addWallTimeInterval(archive.checkpoint, *arguments.checkpointInterval);
@@ -86,7 +87,7 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
   return problem;
 }
 
-/// Writes, on the first rank, the spans recorded on all ranks.
+/// Writes the spans recorded on all ranks to a file, on the first rank.
 void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
   std::string all;
   for (const std::string& events : ranks.gather(trace::events(ranks.rank())))
@@ -94,14 +95,14 @@ void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
   ranks.onFirst([&] { writeFile(path, trace::fileOf(all)); });
 }
 
-/// `100 cells and 450 particles at the start`.
+/// The size of a run as text: `100 cells and 450 particles at the start`.
 std::string sizeOf(simulation::Simulation& run, long particles) {
   const std::size_t cells = run.warehouse().grid().level().cells().size();
   return counted(static_cast<long>(cells), "cell") +
          (particles > 0 ? fmt::format(" and {} at the start", counted(particles, "particle")) : "");
 }
 
-/// If --json requests it, for a scene that is only checked.
+/// Writes the problems of a scene that is only checked, as JSON: to the screen, or to the file given with --json.
 void writeProblems(const Arguments& arguments, const std::vector<InputProblem>& problems) {
   const std::string text =
       report::toJson(problems, [](const InputProblem& problem) { return messageNumber(problem.text()); });
@@ -111,7 +112,7 @@ void writeProblems(const Arguments& arguments, const std::vector<InputProblem>& 
     writeFile(arguments.run.jsonPath, text);
 }
 
-/// Prints information about a scene without running it.
+/// Prints what the command line requests about a scene, without running the scene.
 void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFirst) {
   const long particles = arguments.check ? run.tryStart() : 0;
   if (!isFirst) return;
@@ -126,7 +127,7 @@ void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFir
   if (!arguments.showsJson()) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, particles));
 }
 
-/// Notes options without effect, which may be misspelt.
+/// Notes options that have had no effect, because they may be misspelt.
 void noteUnused(const Arguments& arguments, const report::Report& report) {
   for (const std::string& option : report.unusedOptions)
     fmt::print(stderr, "note: {}\n", withNumber(fmt::format("PETSc: no solve has used the option {}", option)));
@@ -174,7 +175,7 @@ ExitCode refuse(const std::string& sentence) {
   return ExitCode::badCommandLine;
 }
 
-/// `session` is opened if a scene is run.
+/// Does what the command line requests. Opens `session` if this is to run a scene.
 ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
                   std::chrono::steady_clock::time_point startedAt, std::optional<mpi::Session>& session) {
   if ((arguments.isQuestion() || arguments.scene.empty()) && launchedRank() > 0)
@@ -202,15 +203,15 @@ ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
   return runScene(arguments, open(arguments.modules), startedAt, session->ranks());
 }
 
-/// A message for the user, and the exit code.
+/// What the user is told about a failure, and the exit code.
 struct Failure {
   std::string text;
   ExitCode code = ExitCode::failure;
-  std::vector<InputProblem> problems;  ///< of the scene
+  std::vector<InputProblem> problems;  ///< problems of the scene
 };
 
-/// The first problems, and the number of further ones: a generated scene may have the same mistake in thousands of
-/// materials.
+/// Lists the first problems, and the number of further ones: a generated scene may have the same mistake in thousands
+/// of materials.
 std::string listOf(const std::vector<InputProblem>& problems) {
   constexpr std::size_t most = 100;
   std::string text;
@@ -219,7 +220,7 @@ std::string listOf(const std::vector<InputProblem>& problems) {
   return text;
 }
 
-/// The failure behind an exception; without text if another rank has it.
+/// The failure that an exception describes; its text is empty if another rank reports it.
 Failure failureOf(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
@@ -237,16 +238,17 @@ Failure failureOf(const std::exception_ptr& thrown) {
   }
 }
 
-/// Keeps memory that tasks release in the process for the next step; otherwise the system would clear the same pages in
-/// every step.
+/// Keeps memory that tasks release in the process, for the next step. Otherwise, the system would clear the same pages
+/// in every step.
 void keepMemory() {
   constexpr int mebibyte = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
   mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
 }
 
-/// The C library reserves 64 MB of address space for each thread that allocates memory. The threads of MPI and the one
-/// that writes outputs would use almost none of it; if address space is limited, it would be missing for the state.
+/// Limits the number of memory arenas. The C library reserves 64 MB of address space for each thread that allocates
+/// memory. The threads of MPI, and the one that writes outputs, would use almost none of it; where address space is
+/// limited, the state would lack it.
 void shareMemory(int threads) { mallopt(M_ARENA_MAX, threads); }
 
 /// Reports a failure once for all ranks, and ends them.

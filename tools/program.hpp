@@ -4,7 +4,8 @@
 
 namespace tushar {
 
-/// Opens everything that a scene can select, and the modules in the files given by --load.
+/// A function that loads all components and analyses that a scene can select, including the modules in `files`, which
+/// are given by --load.
 using OpenCatalogue = std::function<simulation::Catalogue(const std::vector<std::string>& files)>;
 
 /// Runs sus with its command line. Returns the exit code.

@@ -6,15 +6,17 @@
 
 namespace tushar {
 
-/// The commit that was configured, in 12 digits; `unknown` outside a clone.
+/// The commit from which the program was configured, as 12 digits; `unknown` if it was not in a clone of the
+/// repository.
 extern const char* const buildCommit;
-/// The compiler flags of the whole program.
+/// The compiler flags that apply to the whole program.
 extern const char* const buildFlags;
 
-/// Version, commit, compiler and libraries except PETSc, which is loaded only for a solve; nothing about a run.
+/// The record of version, commit, compiler and libraries. It contains nothing about a run, and not PETSc, which is
+/// loaded only for a solve.
 output::RunRecord buildRecord();
 
-/// The same and PETSc, a line each.
+/// The information of buildRecord and the version of PETSc, with one item per line.
 std::string versionText();
 
 }  // namespace tushar

@@ -119,11 +119,13 @@ class ControlVolFluxes : public Analysis {
   std::vector<Extent> boxes_;
   std::vector<Box> cells_;
   Location where_;
-  std::array<bool, 2> derived_;  ///< whether diagnostics compute density and velocity
+  /// Whether diagnostics compute density and velocity (otherwise they are part of the state).
+  std::array<bool, 2> derived_;
   CellLabel<double> density_{densityName, "kg/m^3", "density"};
   CellLabel<Vec<D>> velocity_{velocityName, "m/s", "velocity"};
   int material_;
-  std::deque<std::string> names_;  ///< their addresses must not change, because labels refer to them
+  /// Names of the variables; their addresses must not change, because labels refer to them.
+  std::deque<std::string> names_;
   std::deque<ReductionLabel<BoxFlow>> labels_;
   SampleTimes times_;
   SampleFiles files_;

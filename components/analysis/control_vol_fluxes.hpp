@@ -8,12 +8,13 @@
 
 namespace tushar::analysis {
 
-/// `controlVolFluxes`: the mass of a gas in boxes of cells over time, and the mass flow through their sides, one file
-/// per box: `<label>.dat` in the archive, where Uintah writes them. A line has the time [s], the mass [kg], what flows
-/// in along x, y and z less what flows out, and the flux through each side, x- x+ y- y+ z- z+, along the axis [kg/s].
+/// `controlVolFluxes`: writes the mass of a gas in boxes of cells, and the mass flow through the sides of these boxes,
+/// over time. Each box has a file, `<label>.dat` in the archive, where Uintah writes it. A line has the time [s], the
+/// mass [kg], the net inflow along x, y and z [kg/s], and the mass flow through the sides x- x+ y- y+ z- z+ [kg/s],
+/// which is positive in the direction of the axis.
 simulation::AnalysisKind controlVolFluxesKind();
 
-/// The mass in a box, and the flux through each side: 2 * axis + side, along x, y and z.
+/// The mass in a box [kg] and the mass flow through its sides [kg/s], with the index 2 * axis + side.
 struct BoxFlow {
   Sum mass;
   std::array<Sum, 6> through;
@@ -22,9 +23,10 @@ struct BoxFlow {
   std::vector<double> values() const;
 };
 
-/// Adds a patch's share of a box of cells. Through a side flows the density of the cell upwind times the mean velocity
-/// of the two cells; where the grid ends, that of the gas inside, nothing through planes of symmetry, and with a given
-/// velocity where the side has one. Density and velocity have a layer of ghosts.
+/// Adds the contribution of a patch to a box of cells. The flux through a side is the density of the upwind cell times
+/// the mean velocity of the cells on both sides. At the end of the grid, the density is that of the cell inside, and
+/// the velocity is the prescribed one, if there is one; at a symmetry plane the flux is 0. Density and velocity need
+/// one layer of ghosts.
 template <int D>
 void addBoxFlow(const Patch& patch, const Box& box, int material, CellView<const double> density,
                 CellView<const Vec<D>> velocity, BoxFlow& flow);

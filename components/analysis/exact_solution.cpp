@@ -64,13 +64,13 @@ const Schema<ExactSolutionSettings>& exactSolutionSchema() {
   return schema;
 }
 
-/// A variable that can be compared, and whether diagnostics compute it from the state.
+/// A variable that can be compared with an exact solution, and whether diagnostics compute it from the state.
 struct Measurable {
   Label label;
   bool derived;
 };
 
-/// The cell and node variables of a component, vectors or scalars, that belong to no material, by name.
+/// The cell and node variables of a component that belong to no material, by name: its vectors or its scalars.
 std::map<std::string, Measurable> measurables(const Component& component, bool vectors) {
   TaskList state, derived;
   component.scheduleInitialize(state);
@@ -89,7 +89,7 @@ std::map<std::string, Measurable> measurables(const Component& component, bool v
   return found;
 }
 
-/// The variable of that name. Throws InputError naming those that there are.
+/// The variable that the settings name. Throws InputError, which lists the available ones, if there is none.
 Measurable findMeasurable(const Component& component, const ExactSolutionSettings& settings, const Location& where) {
   const std::string& name = settings.label;
   const std::map<std::string, Measurable> found = measurables(component, settings.component.has_value());
@@ -105,7 +105,7 @@ Measurable findMeasurable(const Component& component, const ExactSolutionSetting
   throw InputError({{where, "DataAnalysis/Module/label", names.empty() ? none : input::choiceProblem(name, names)}});
 }
 
-/// Errors of a scalar, or of a component of a vector along an axis of the scene.
+/// Adds to `error` the errors of a scalar field, or of one component of a vector field, on a patch.
 template <Centring C, int D, class T>
 void measure(const Patch& patch, const ExactSolutionSettings& settings, const double* time,
              data::GridView<C, const T> field, Norm& error) {

@@ -4,8 +4,8 @@
 
 namespace tushar::analysis {
 
-/// `exactSolution`: errors of a scalar cell or node variable (of the state or the diagnostics) that belongs to no
-/// material, relative to a formula in x, y, z and t.
+/// `exactSolution`: computes errors of a scalar cell or node variable (of the state or the diagnostics) that belongs to
+/// no material, relative to a formula in x, y, z and t.
 simulation::AnalysisKind exactSolutionKind();
 
 }  // namespace tushar::analysis

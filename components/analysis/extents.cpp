@@ -31,7 +31,7 @@ std::string pathOf(int axes) {
   return axes == 1 ? "DataAnalysis/Module/lines/line" : "DataAnalysis/Module/planes/plane";
 }
 
-/// Why a name is invalid; empty if it can name a folder in an archive.
+/// The reason why a name is invalid; empty if it can be the name of a folder in an archive.
 std::string problemOfName(const std::string& name) {
   static const std::set<std::string> taken{"checkpoints", "slice", "particleExtract", "MinMax", "planeAverage"};
   const bool isPath = name.empty() || name.starts_with('.') || name.find('/') != std::string::npos;
@@ -41,15 +41,15 @@ std::string problemOfName(const std::string& name) {
   return {};
 }
 
-/// The width of the coarsest cells along an axis of the scene, m; 0 where the grid leaves the axis out.
+/// The width of the coarsest cells along an axis of the scene [m]; 0 if the grid does not use the axis.
 double coarsestWidth(const Level& level, int axis) {
   for (int d = 0; d < level.dimension(); ++d)
     if (level.axis(d) == axis) return std::ldexp(level.spacing(d), level.number());
   return 0;
 }
 
-/// Why the points are invalid; empty if there are cells of the grid between them. Uintah has a layer of cells beyond
-/// each side, which scenes may sample: there an extent begins or ends at the side.
+/// The reason why the points are invalid; empty if there are cells of the grid between them. Uintah's grid has one more
+/// layer of cells beyond each side. Scenes may sample it, but here an extent ends at the side.
 std::string problemOf(const Extent& extent, int axes, const Level& level) {
   const Vec3 lower = level.domain().lower, upper = level.domain().upper;
   int along = 0;
@@ -66,8 +66,8 @@ std::string problemOf(const Extent& extent, int axes, const Level& level) {
     if (from < to) ++along;
   }
   if (along == axes) return {};
-  return axes == 1 ? "a line is parallel to one axis: startingPt and endingPt must differ in exactly one coordinate"
-                   : "a plane is parallel to two axes: startingPt and endingPt must differ in exactly two coordinates";
+  return axes == 1 ? "a line is parallel to one axis: expected startingPt and endingPt to differ in one coordinate"
+                   : "a plane is parallel to two axes: expected startingPt and endingPt to differ in two coordinates";
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 
 namespace tushar::analysis {
 
-/// Whether diagnostics compute a cell variable without a material; false if it is part of the state, and none if there
-/// is no such variable.
+/// Whether diagnostics compute a cell variable that belongs to no material, rather than the state containing it; none
+/// if there is no such variable.
 std::optional<bool> isDerived(const simulation::Component& component, std::string_view label);
 
 /// Whether diagnostics compute a total of this name.
@@ -34,8 +34,8 @@ double velocityAtEnd(const Level& level, int axis, int side, int material, const
 /// The number of materials before the gas of a component, which is the index of the gas in the scene.
 int bodiesOf(const simulation::Component& component);
 
-/// Throws InputError if the <material> of a module is not a gas of the component. No <material> is correct, and as in
-/// Uintah any name if there is one material.
+/// Throws InputError if the <material> of a module is not a gas of the component. The tag may be missing; as in Uintah,
+/// it may have any text if the scene has only one material.
 void checkGas(const std::string& material, const simulation::Component& component, const input::Element& module);
 
 }  // namespace tushar::analysis

@@ -4,9 +4,9 @@
 
 namespace tushar::analysis {
 
-/// `minMax`: the minimum and maximum of variables over time, one file per variable: `MinMax/L-0/press_CC_0` in the
-/// archive, where Uintah writes them. A line has the time [s], the least and the greatest value; those of vectors and
-/// tensors are in brackets, number by number.
+/// `minMax`: writes the minimum and maximum of variables over time. Each variable has a file, such as
+/// `MinMax/L-0/press_CC_0` in the archive, where Uintah writes it. A line has the time [s], the minimum and the
+/// maximum; for vectors and tensors, the latter two are lists of components in brackets.
 simulation::AnalysisKind minMaxKind();
 
 }  // namespace tushar::analysis

@@ -6,15 +6,15 @@
 
 namespace tushar::analysis {
 
-/// `particleExtract`: variables of selected particles over time, one file per particle: those of one material whose
-/// p.color is above a threshold. The files are `particleExtract/L-0/<p.particleID>` in the archive, as Uintah writes
-/// them: a line of names, then for every sample time, place, and the variables: numbers first, vectors, tensors by
-/// rows.
+/// `particleExtract`: writes variables of the particles of one material whose p.color is above a threshold, over time.
+/// Each particle has a file, `particleExtract/L-0/<p.particleID>` in the archive, as in Uintah. It begins with a line
+/// of names; then there is a line for every sample, with the time, the position and the variables: scalars first, then
+/// vectors, then tensors by rows.
 simulation::AnalysisKind particleExtractKind();
 
-/// The first line of a file: the names, for columns of particle variables.
+/// The first line of a file: the names of the columns of particle variables.
 std::string extractHeader(const std::vector<output::Array>& columns);
-/// The line for particle `entry`: the time [s], p.x, which is the first column, and the others.
+/// The line for particle `entry`: the time [s], p.x (which is the first column), and the other variables.
 std::string extractLine(double time, const std::vector<output::Array>& columns, std::size_t entry);
 
 }  // namespace tushar::analysis

@@ -36,19 +36,19 @@ void checkWeight(const AverageSettings& read, const input::Element& module, inpu
 
 const input::Schema<AverageSettings>& averageSchema() {
   static const input::Schema<Weight> weight =
-      input::Schema<Weight>("weight", "The variable whose sum divides those of weighting=\"mass\".")
+      input::Schema<Weight>("weight", "The variable by whose sum those with weighting=\"mass\" are divided.")
           .location(&Weight::where, "label")
           .requiredAttribute("label", &Weight::label, "1", "a cell variable, such as c.density");
   static const input::Schema<AverageSettings> schema =
       samplingSchema<AverageSettings>(
           "planeAverage",
-          "Means over planes of cells, on several levels of the coarsest ones, one file per "
-          "variable and time.",
+          "Means over planes of cells (of the coarsest ones, if there are several levels), one "
+          "file per variable and time.",
           weightedSchema())
           .requiredChoice("planeOrientation", &AverageSettings::axis, {{"YZ", 0}, {"XZ", 1}, {"XY", 2}},
                           "the axes along which the planes lie")
           .section("weight", &AverageSettings::weight, weight,
-                   "the variable whose sum divides those of weighting=\"mass\"")
+                   "the variable by whose sum those with weighting=\"mass\" are divided")
           .check(checkWeight);
   return schema;
 }
@@ -92,7 +92,8 @@ class PlaneAverage : public SamplingModule {
   }
 
  private:
-  /// Of several levels: coarsest cells. Finer ones count by their volume.
+  /// Number of cells per plane. On a grid of several levels, it counts coarsest cells; finer cells count by their
+  /// volume.
   int cellsPerPlane() const {
     int cells = 1;
     for (int d = 0; d < level_->dimension(); ++d)
@@ -134,8 +135,8 @@ class PlaneAverage : public SamplingModule {
   const Level* level_;
   int across_ =
       -1;  ///< kernel axis perpendicular to the planes; -1 if the grid does not use it, so that there is one plane
-  std::map<std::string, Weighting> weightings_;  ///< ordered by the position of the variable in the scene
-  std::string weight_;                           ///< position of the variable of <weight>
+  std::map<std::string, Weighting> weightings_;  ///< weighting of each variable, in the order of the scene
+  std::string weight_;                           ///< position of the variable named in <weight>
 };
 
 }  // namespace

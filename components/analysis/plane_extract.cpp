@@ -40,7 +40,7 @@ class PlaneExtract : public ExtentModule {
   }
 
  private:
-  /// The text of the file for each level that has cells there.
+  /// The text of the file of each level that has cells on the plane.
   std::map<int, std::string> textsOf(const std::vector<LevelBox>& boxes, const Snapshot& part,
                                      const Found& found) const {
     std::map<int, std::string> texts;

@@ -12,10 +12,10 @@
 
 namespace tushar::analysis {
 
-/// The weight of a mean.
+/// How values are weighted in a mean.
 enum class Weighting { none, cells, weight };
 
-/// An `<analyze label= matl=>`.
+/// A tag `<analyze label= matl=>`.
 struct Analyzed {
   Location where, whereOfMaterial;
   std::string label, material;
@@ -28,19 +28,19 @@ struct AnalyzedList {
 
 /// The sampling times of a module, from its tags.
 struct Times {
-  double frequency = 0, start = 0, stop = 0;  ///< 1/s, s, s
+  double frequency = 0, start = 0, stop = 0;  ///< sampling frequency [1/s], first and last time [s]
 };
 
 /// The tags of a module that samples variables.
 struct Sampling : Times {
   std::string name;
   Location where;
-  std::string material;  ///< material of variables without matl
+  std::string material;  ///< material of variables without `matl`
   AnalyzedList variables;
 };
 
 const input::Schema<AnalyzedList>& analyzedSchema();
-/// The same schema with an attribute `weighting`.
+/// Like analyzedSchema, with the additional attribute `weighting`.
 const input::Schema<AnalyzedList>& weightedSchema();
 void checkTimes(const Times& times, const input::Element& module, input::Diagnostics& diagnostics);
 
@@ -60,7 +60,7 @@ void addTimes(input::Schema<Settings>& schema) {
       });
 }
 
-/// The schema of a module that samples variables, to which its own tags are added.
+/// The schema of a module that samples variables; the module adds its own tags to it.
 template <class Settings>
 input::Schema<Settings> samplingSchema(const std::string& name, const std::string& sentence,
                                        const input::Schema<AnalyzedList>& list = analyzedSchema()) {
@@ -76,9 +76,9 @@ input::Schema<Settings> samplingSchema(const std::string& name, const std::strin
   return schema.requiredSection("Variables", variables, list, "the variables to sample");
 }
 
-/// When samples are due: after the first step between `start` and `stop`, and then after each step that passes a time
-/// start + k / frequency. The initial state is none. What is due depends on the state and on that before alone, so that
-/// a run that goes on from a checkpoint samples the same ones.
+/// Determines when samples are due: after the first step between `start` and `stop`, and then after each step that
+/// passes a time start + k / frequency. The initial state is never sampled. Whether a sample is due depends only on the
+/// times of the state and of the previous one, so a run that continues from a checkpoint takes the same samples.
 class SampleTimes {
  public:
   SampleTimes(double frequency, double start, double stop) : frequency_(frequency), start_(start), stop_(stop) {}
@@ -94,17 +94,18 @@ class SampleTimes {
   bool due_ = false;
 };
 
-/// The lines of a file before a time [s], and its comments: the part that remains valid if a run is repeated from that
-/// time on. The time is in a column, counted from 0. An incomplete last line, left by a kill, is dropped.
+/// The part of a file that remains valid if a run is repeated from a time [s] on: the comments, and the lines before
+/// this time. `column` is the index of the column that contains the time. An incomplete last line, left by a killed
+/// run, is dropped.
 std::string linesBefore(const std::string& text, double time, int column = 0);
 
-/// Text files to which each sample adds a line. If an earlier run has left one, the lines that are now repeated are
-/// removed from it.
+/// Text files to which each sample adds a line. If an earlier run has left such a file, the lines of the steps that
+/// this run repeats are removed from it.
 class SampleFiles {
  public:
-  /// `column` is that of the time [s] in a line.
+  /// `column` is the index of the column that contains the time [s].
   explicit SampleFiles(int column = 0) : column_(column) {}
-  /// Throws FileError.
+  /// Adds a line to a file. Throws FileError.
   void add(const std::filesystem::path& file, const std::string& header, const std::string& line, double time);
 
  private:
@@ -124,7 +125,7 @@ class SamplingModule : public simulation::Analysis {
   bool isSampleDue(int) const override { return times_.isDue() && !variables_.empty(); }
 
  protected:
-  /// The values of a variable; null if it has none at this time.
+  /// The values of a variable; null if it has no values at this time.
   static const output::FieldBlock* find(const output::Snapshot& snapshot, const simulation::SampledVariable& variable);
   /// The variables that have values at this time.
   struct Found {
@@ -135,7 +136,7 @@ class SamplingModule : public simulation::Analysis {
   /// The name of a variable in paths: its name in the scene and the index of the material, without characters that
   /// paths cannot contain.
   static std::string nameOf(const simulation::SampledVariable& variable);
-  /// One for each variable.
+  /// One file for each variable.
   std::vector<simulation::OwnFile> filesIn(const std::string& folder) const;
 
   std::vector<simulation::SampledVariable> variables_;
@@ -144,10 +145,10 @@ class SamplingModule : public simulation::Analysis {
   SampleTimes times_;
 };
 
-/// The name of a component of a variable in file headers: `v`, `v.x` of a vector, `v(0,1)` of a tensor.
+/// The name that file headers give to a component of a variable: `v`, `v.x` for a vector, `v(0,1)` for a tensor.
 std::string nameOfComponent(const std::string& name, int component, int components);
 
-/// An element of an array of any numeric type.
+/// The element at `place` of an array with numbers of any type.
 double numberAt(const output::Array& array, std::size_t place);
 
 }  // namespace tushar::analysis

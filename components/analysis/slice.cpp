@@ -30,7 +30,7 @@ using simulation::SaveRequest;
 
 namespace {
 
-/// The text of a tag, and its place in the scene.
+/// The text of a tag, and its location in the scene.
 struct Word {
   Location where;
   std::string text;
@@ -41,8 +41,8 @@ struct SliceSettings {
   Location where;
   std::vector<Word> planes, labels;
   std::string material;
-  double interval = 0;   ///< s; 0: none
-  int stepInterval = 0;  ///< 0: none
+  double interval = 0;   ///< interval in simulated time [s]; 0: none
+  int stepInterval = 0;  ///< interval in steps; 0: none
 };
 
 const Schema<Word>& planeSchema() {
@@ -106,7 +106,7 @@ const Schema<SliceSettings>& sliceSchema() {
 
 char nameOf(int axis) { return "xyz"[axis]; }
 
-/// Why a grid has no cells on a plane; empty if it has some.
+/// The reason why a grid has no cells on a plane; empty if it has such cells.
 std::string problemOf(const Plane& plane, const Level& level) {
   const double lower = level.domain().lower[plane.axis], upper = level.domain().upper[plane.axis];
   if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; remove the module";
@@ -122,7 +122,7 @@ std::string problemOf(const Plane& plane, const Level& level) {
                      plane.at, lower, upper);
 }
 
-/// The layers of the planes. Throws InputError for planes that the grid has no cells on.
+/// The layers of the planes. Throws InputError for planes on which the grid has no cells.
 std::vector<Layer> layersOf(const SliceSettings& settings, const Level& level) {
   std::vector<Layer> layers;
   std::vector<InputProblem> problems;
@@ -169,7 +169,7 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
-  /// Updates the lists of each plane's archive, because a restart removes outputs that are not listed.
+  /// Updates the list of outputs in each plane's archive, because a restart removes outputs that are not listed.
   void flush() override {
     for (const auto& archive : archives_)
       if (archive) archive->flush();
@@ -182,13 +182,13 @@ class Slice : public Analysis {
   }
 
  private:
-  /// The folder of a plane in the archive.
+  /// The folder of a plane's archive.
   static std::string folderOf(const Word& plane) {
     const Plane at = *planeOf(plane.text);
     return fmt::format("slice/{}={}", nameOf(at.axis), at.at);
   }
 
-  /// The archive of a plane, without outputs of an earlier run that are now repeated.
+  /// Opens the archive of a plane. The outputs of the steps that this run repeats are removed from it.
   std::unique_ptr<Archive> open(std::size_t plane, const Snapshot& first, const std::filesystem::path& folder) const {
     const auto own = folder / folderOf(settings_.planes[plane]);
     output::makeFolder(own);
@@ -200,10 +200,10 @@ class Slice : public Analysis {
 
   SliceSettings settings_;
   std::vector<Layer> layers_;
-  simulation::Milestones times_;  ///< since the start of the first run, s
+  simulation::Milestones times_;  ///< output times since the start of the first run [s]
   double since_start_ = -1;
   bool time_is_due_ = false;
-  std::vector<std::unique_ptr<Archive>> archives_;  ///< archive of each plane, once it has outputs
+  std::vector<std::unique_ptr<Archive>> archives_;  ///< archive of each plane; null until it has outputs
 };
 
 }  // namespace

@@ -8,11 +8,11 @@ namespace tushar::burgers {
 
 namespace {
 
-constexpr int kReach = 2;  ///< number of cells to each side on which a cell's fluxes depend
+constexpr int kReach = 2;  ///< number of cells on each side that affect the fluxes of a cell
 
 double noSlope(double, double) { return 0; }
 
-/// u in a cell that may be outside the grid along axis `d`, where it is the value that flows in or out.
+/// The value of u in a cell that may be outside the grid along axis `d`: there, it is the inflow or outflow value.
 template <int D>
 double valueAt(const Patch& patch, const BoundarySides<double>& sides, CellView<const double> u, Index<D> cell, int d) {
   if (patch.cellsWithin(kReach).contains(cell)) return u[cell];
@@ -29,7 +29,7 @@ double faceFlux(const std::array<double, 4>& u, Slope slope, double viscosityOve
   return godunovFlux(left, right) - viscosityOverSpacing * (u[2] - u[1]);
 }
 
-/// The flux through a face of a cell, side 0: the lower one, along the axis.
+/// The flux through a face of a cell along the axis; side 0 is the lower face.
 template <int D>
 double fluxThrough(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
                    CellView<const double> u, const Index<D>& cell, int d, int side) {
@@ -42,7 +42,8 @@ double fluxThrough(const Patch& patch, const Settings& settings, const BoundaryS
   return faceFlux(row, slopeOf(settings.limiter), settings.viscosity * patch.level().inverseSpacing(d));
 }
 
-/// Stores half of the fluxes through the rim, in one of the two stages.
+/// Adds half of the fluxes through the rim of the level to the stored ones; each of the two stages contributes one
+/// half.
 template <int D>
 void keepHalf(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
               CellView<const double> u, RimFlux<double> flux) {
@@ -51,7 +52,7 @@ void keepHalf(const Patch& patch, const Settings& settings, const BoundarySides<
   });
 }
 
-/// L(u) in a cell.
+/// Computes L(u) in a cell.
 template <int D>
 double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, const BoundarySides<double>& sides,
                     CellView<const double> u, const Index<D>& cell) {

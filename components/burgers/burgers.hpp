@@ -16,26 +16,26 @@ inline constexpr BoundaryLabel<double> velocity{"Velocity"};
 inline constexpr ReductionLabel<Sum> totalMomentum{"TotalMomentum", "m^4/s", "integral of u"};
 inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "m^5/s^2", "integral of u^2 / 2"};
 
-/// Slope of a cell from the differences to its two neighbours.
+/// A function that computes the slope of a cell from the differences to its two neighbours.
 using Slope = double (*)(double, double);
 
 /// The `Burgers` section.
 struct Settings {
-  double viscosity = 0;             ///< nu, m²/s
-  double cfl = 0.5;                 ///< fraction of 1 / (sum_d |u| / h_d + 2 nu / h_d²)
-  int limiter = 2;                  ///< an index of slopeOf
-  input::Expression velocity{0.0};  ///< u at the start, m/s
+  double viscosity = 0;             ///< viscosity nu [m²/s]
+  double cfl = 0.5;                 ///< fraction of the stable time step, 1 / (sum_d |u| / h_d + 2 nu / h_d²)
+  int limiter = 2;                  ///< index of the limiter, as in slopeOf
+  input::Expression velocity{0.0};  ///< initial u [m/s]
 };
 
-/// Slopes by index: 0 none, first order; 1 minmod; 2 van Leer; 3 monotonised central.
+/// The slope function with this index. 0: none, first order; 1: minmod; 2: van Leer; 3: monotonised central.
 Slope slopeOf(int limiter);
 
 /// Burgers' equation, du/dt + sum_d d(u²/2)/dx_d = nu div grad u, by finite volumes in D dimensions.
 ///
-/// Godunov's flux of states at faces that limited slopes give, centred differences for the viscosity, and Heun's method
-/// in time: of second order where u is smooth. At a face with `Velocity` Dirichlet the value [m/s] comes in; through
-/// any other u goes out as it is. Sources: S. K. Godunov, Mat. Sb. 47 (1959) 271; B. van Leer, J. Comput. Phys. 32
-/// (1979) 101; S. Gottlieb & C.-W. Shu, Math. Comp. 67 (1998) 73.
+/// Godunov's flux with face states from limited slopes, centred differences for the viscosity, and Heun's method in
+/// time. It is of second order where u is smooth. At a face with a Dirichlet condition for `Velocity`, this u
+/// [m/s] enters; at any other face, u leaves unchanged. Sources: S. K. Godunov, Mat. Sb. 47 (1959) 271; B. van
+/// Leer, J. Comput. Phys. 32 (1979) 101; S. Gottlieb & C.-W. Shu, Math. Comp. 67 (1998) 73.
 template <int D>
 class Burgers : public Component {
  public:
@@ -52,32 +52,32 @@ class Burgers : public Component {
   Settings settings_;
 };
 
-/// u at the centre of each cell, from the scene's formula.
+/// Sets u at the centre of each cell from the scene's formula.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> u);
 
-/// dt = cfl / max(sum_d |u| / h_d + 2 nu / h_d²).
+/// Computes dt = cfl / max(sum_d |u| / h_d + 2 nu / h_d²).
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, CellView<const double> u, Minimum& dt);
 
-/// The flux u²/2 between two states: its maximum between them if left > right, otherwise its minimum.
+/// Godunov's flux between two states: the maximum of u²/2 between them if left > right, otherwise its minimum.
 double godunovFlux(double left, double right);
 
-/// u* = u + dt L(u), L minus the sum of the fluxes out of a cell over its volume.
+/// Computes u* = u + dt L(u), where L(u) is the net inflow into a cell divided by its volume.
 template <int D>
 void predict(const Patch& patch, const Settings& settings, CellView<const double> u, double dt,
              CellView<double> predicted, RimFlux<double> flux = {});
 
-/// u' = (u + u* + dt L(u*)) / 2.
+/// Computes u' = (u + u* + dt L(u*)) / 2.
 template <int D>
 void correct(const Patch& patch, const Settings& settings, CellView<const double> u, CellView<const double> predicted,
              double dt, CellView<double> newU, RimFlux<double> flux = {});
 
-/// Integrals of u and u²/2 over the patch's cells.
+/// Computes the integrals of u and u²/2 over the patch's cells.
 template <int D>
 void sumTotals(const Patch& patch, CellView<const double> u, Sum& momentum, Sum& energy);
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::burgers

@@ -15,7 +15,7 @@ using reference::kGauss5;
 namespace {
 
 constexpr long kSteps = 8192;
-constexpr double kFar = 40;  ///< exp(-kFar) is negligible
+constexpr double kFar = 40;  ///< argument beyond which exp(-kFar) is negligible
 
 }  // namespace
 
@@ -56,7 +56,7 @@ double BurgersWave::profile(double y) const {
   return problem_.velocity(std::clamp(y, problem_.lower, problem_.upper));
 }
 
-/// U at any node, also outside the table.
+/// The value of U at any node, also outside the table.
 double BurgersWave::integralAt(long node) const {
   if (problem_.periodic) {
     const long turns = node >= 0 ? node / kSteps : -((kSteps - 1 - node) / kSteps);
@@ -85,7 +85,8 @@ BurgersWave::Least BurgersWave::leastOfNodes(double x, double t, long first, lon
   return best;
 }
 
-/// Finds the minimum, which is where y + t u(y) = x, no farther from x than the profile can have travelled.
+/// Finds the minimum of U(y) + (x-y)²/2t, where y + t u(y) = x. It searches only as far as the profile can have
+/// travelled.
 BurgersWave::Least BurgersWave::least(double x, double t) const {
   const Least node = leastOfNodes(x, t, nodeBelow(x - greatest_ * t), nodeBelow(x - least_ * t) + 1);
   double lower = node.place - step_, upper = node.place + step_;
@@ -100,8 +101,9 @@ BurgersWave::Least BurgersWave::least(double x, double t) const {
   return {lower, integral(lower) + away * away / (2 * t)};
 }
 
-/// Sum over the nodes of f(y) exp(-(U(y) + (x-y)²/2t - least) / 2 nu) times the step. Beyond the places that the
-/// profile can have come from by w the exponent is at least w² / (4 nu t).
+/// Computes the sum over the nodes of f(y) exp(-(U(y) + (x-y)²/2t - least) / 2 nu) times the step. It omits the nodes
+/// that are so far from the possible origins of the profile that they are negligible: at a distance w from these
+/// origins, the exponent is at least w² / (4 nu t).
 template <class F>
 double BurgersWave::sum(double x, double t, double least, const F& f) const {
   const double width = std::sqrt(4 * kFar * problem_.viscosity * t);

@@ -12,7 +12,7 @@ namespace {
 
 inline constexpr ReductionLabel<Norm> waveError{"CellError.u", "m/s", "error of the mean u of cells"};
 
-/// The exact solution for the task, which is set before the task runs.
+/// The exact solution for the task; it is set before the task runs.
 struct Exact {
   BurgersWave wave;
   double time = 0;
@@ -59,7 +59,8 @@ std::vector<output::Array> WaveError::exactProfile(const Level& level) const {
   return {{"x", "m", "position", 1, x}, {"u", "m/s", "exact u", 1, u}};
 }
 
-/// The wave of a scene; throws std::invalid_argument if the grid does not continue beyond an end as the profile does.
+/// The exact solution for a scene. Throws std::invalid_argument if the inflow at an end of the grid differs from the
+/// initial u there, because the solution continues the profile.
 BurgersWave waveOf(const Burgers<1>& burgers, const Level& level) {
   BurgersProblem problem;
   problem.velocity = [velocity = burgers.settings().velocity, &level](double x) {

@@ -6,7 +6,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// Adds to a rule the values that density, pressure and temperature prescribe for a gas with its own law.
+/// Adds to the rule of a gas with its own law the prescribed density, pressure and temperature.
 template <int D>
 void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> density,
                     const std::optional<double>& pressure, GhostRule<D>& rule) {
@@ -28,7 +28,7 @@ void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> de
   }
 }
 
-/// The relaxation at a side that lets waves out; none at other sides.
+/// The relaxation at a side that lets waves out; no relaxation at other sides.
 Relaxation relaxationAt(const Place& place, const Gas& gas) {
   const auto given = givenAt(place, gas, boundary::waves);
   if (!given) return {};
@@ -78,7 +78,7 @@ GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
   return rule;
 }
 
-/// The temperature [K] at a place, as given or from a given density and pressure.
+/// The temperature [K] at a place: the given one, or the one that follows from a given density and pressure.
 std::optional<double> temperatureAt(const Place& place, const Gas& gas) {
   if (const auto given = givenAt(place, gas, boundary::temperature)) return given;
   const auto density = givenAt(place, gas, boundary::density), pressure = pressureAt(place, gas);
@@ -107,7 +107,7 @@ GhostRule<D> diffusionRule(const Place& place, const Gas& gas) {
   return rule;
 }
 
-/// Whether any condition for a gas at a side is a formula.
+/// Whether any condition at a side is a formula.
 bool hasFormulas(const Level& level, int axis, int side) {
   const auto hasSome = [](const std::vector<grid::BoundaryCondition>& conditions) {
     return std::any_of(conditions.begin(), conditions.end(), [](const auto& one) { return one.formula != nullptr; });
@@ -165,16 +165,16 @@ GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, const Box
   return rules;
 }
 
-/// The cell, along an axis of `cells` cells, from which a cell beyond its ends is computed.
+/// Along an axis with `cells` cells, the index of the cell from which a cell beyond an end of the axis is computed.
 int sourceOf(int cell, int cells, bool mirrored) {
   const int inside = cell < 0 ? (mirrored ? -1 - cell : 0) : (mirrored ? 2 * cells - 1 - cell : cells - 1);
   return std::clamp(inside, 0, cells - 1);
 }
 
-/// The distance, in cells, of a cell outside an axis of `cells` cells from the end of this axis.
+/// How far, in cells, a cell lies beyond an end of an axis with `cells` cells: 1 for the first cell outside.
 int depthOf(int cell, int cells) { return cell < 0 ? -cell : cell - cells + 1; }
 
-/// The cell of the grid from which a cell outside it is computed, along the axes before `axis`.
+/// The cell from which a cell outside the grid is computed; it is on the grid along the axes before `axis`.
 template <int D>
 Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, int axis) {
   for (int d = 0; d < axis; ++d) {
@@ -217,7 +217,7 @@ void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   w[kPressure<D>] -= half;
 }
 
-/// The state of a cell `cells` cells beyond a side, by a rule and the state of the cell from which it is computed.
+/// The state at a distance of `cells` cells beyond a side, from a rule and the state `w` of the cell inside.
 template <int D, std::size_t N>
 std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array<double, N> w) {
   for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];

@@ -12,20 +12,20 @@
 
 namespace tushar::euler {
 
-/// A side that lets waves out, and slowly relaxes the pressure to a far-field value: the incoming characteristic, p -
-/// rho c u_n with n outwards, changes at the rate -K (p - p_far), K = sigma (1 - M²) c / L, where L is the length of
-/// the grid across the side. So beyond the side the characteristic is less by (p - p_far) sigma (1 + M) h / L. Source:
-/// T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; D. H. Rudy & J. C. Strikwerda, J. Comput. Phys. 36 (1980)
-/// 55, for K.
+/// A non-reflecting side, which slowly relaxes the pressure to a far-field value. With the normal n outwards, the
+/// incoming characteristic p - rho c u_n changes at the rate -K (p - p_far), where K = sigma (1 - M²) c / L and L is
+/// the length of the grid across the side. Therefore, it is smaller beyond the side by (p - p_far) sigma (1 + M) h / L.
+/// Sources: T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; for K, D. H. Rudy & J. C. Strikwerda, J. Comput.
+/// Phys. 36 (1980) 55.
 struct Relaxation {
-  double farPressure = 0;  ///< Pa; 0: none
+  double farPressure = 0;  ///< far-field pressure [Pa]; 0: none
   double sigma = 0;
-  double thickness = 0;  ///< h / L
+  double thickness = 0;  ///< ratio h / L
   int axis = 0, outwards = 0;
 
   bool acts() const { return farPressure > 0; }
-  /// The loss [Pa] of the incoming characteristic at a side, with the outward velocity u_n [m/s], during `crossings`
-  /// times the time in which sound crosses a cell.
+  /// The decrease [Pa] of the incoming characteristic at a side while sound crosses `crossings` cells. `speed` is the
+  /// outward velocity u_n [m/s].
   double loss(double pressure, double speed, double sound, double crossings = 1) const {
     const double mach = std::clamp(speed / sound, -1.0, 1.0);
     const double share = sigma * thickness * std::max(1 + mach, crossings * (1 - mach * mach));
@@ -33,27 +33,28 @@ struct Relaxation {
   }
 };
 
-/// The state beyond a side of the grid: W = factor * (the mirrored or the nearest cell) + value.
+/// The state beyond a side of the grid: W = factor * W_inside + value, where W_inside is that of the mirrored or of the
+/// nearest cell.
 template <int D>
 struct GhostRule {
   bool mirrored = false;
   State<D> factor, value;
-  double densityOfPressure = 0;  ///< if above 0, rho is this times p + p_inf, kg/(m³ Pa)
-  double pInfinity = 0;          ///< Pa
-  double temperature = 0;        ///< if above 0, the temperature of a gas with its own law, K
-  const Gas* gas = nullptr;      ///< that gas
+  double densityOfPressure = 0;  ///< if greater than 0, rho is this number times p + p_inf [kg/(m³ Pa)]
+  double pInfinity = 0;          ///< p_inf [Pa]
+  double temperature = 0;        ///< if greater than 0, the temperature of a gas with its own law [K]
+  const Gas* gas = nullptr;      ///< the gas with its own law
   Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
   Mixture<kMostGases> laws;      ///< of several gases, for that relaxation
 };
 
-/// The rules of a side: outside its parts, and for each part.
+/// The rules of a side: a rule for each of its parts and, as the base class, the rule for the rest of the side.
 template <int D>
 struct SideRules : GhostRule<D> {
   std::vector<GhostRule<D>> parts = {};
-  /// If the scene gives formulas: the rule for a cell beyond a part of the side; otherwise empty.
+  /// If the scene gives formulas, the rule for a cell beyond a part of the side; otherwise no function.
   std::function<GhostRule<D>(int part, const Index<D>& cell)> varying = {};
 
-  /// Whether the side has the same rule for all cells.
+  /// Whether the same rule applies to all cells of the side.
   bool areOne() const { return parts.empty() && !varying; }
 };
 
@@ -61,8 +62,8 @@ struct SideRules : GhostRule<D> {
 template <int D>
 using GhostRules = std::array<std::array<SideRules<D>, 2>, D>;
 
-/// A place at a side of the grid that has conditions: a part of the side, or the rest of it. Where formulas stand for
-/// values they count at a point [m] and a time [s].
+/// A place at a side of the grid that has conditions: a part of the side, or the rest of it. Formulas in place of
+/// values are evaluated at a point [m] and a time [s].
 struct Place {
   const Level& level;
   int axis = 0, side = 0, part = grid::restOfSide;
@@ -70,25 +71,26 @@ struct Place {
   double time = 0;
 };
 
-/// The value that a scene gives for a variable of a gas at a place, if any.
+/// The value that a scene prescribes at a place for a variable of a gas; none if it prescribes none.
 template <class T>
 std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel<T>& label) {
   const auto condition = place.level.boundary(place.axis, place.side, label, gas.material, place.part);
   return condition && condition->isDirichlet() ? std::optional(condition->at(place.x, place.time)) : std::nullopt;
 }
-/// The same for the pressure, which all materials share: Uintah's scenes give it for material 0.
+/// The pressure that a scene prescribes at a place, if any. All materials share it, because Uintah's scenes give it for
+/// material 0.
 std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
-/// Whether there is a wall: Symmetric, or with only a Velocity that is tangential to the side.
+/// Whether a place is a wall: it has the condition Symmetric, or only a Velocity that is tangential to the side.
 template <int D>
 bool isWall(const Place& place, const Gas& gas);
 
-/// From the scene's conditions: a wall mirrors the gas. Where Density, Velocity or Pressure is given, gas of these
-/// values flows in; a Temperature and one of density and pressure determine the other. Whatever is not given continues
-/// with no gradient, so that a side without conditions is an outflow.
+/// The rules that follow from the scene's conditions. A wall mirrors the gas. At a side with Density, Velocity or
+/// Pressure, gas with these values flows in; a Temperature given with one of density and pressure determines the other.
+/// Quantities that are not given continue without gradient, so a side without conditions is an outflow.
 ///
-/// Formulas count at `time` [s], in the middle of each cell beyond the side, and mean there what their values would.
-/// Throws NumericalError where one gives a density, or a p + p_inf, that cannot be.
+/// Formulas are evaluated at `time` [s] in the centre of each cell beyond the side, and their results are used like
+/// values. Throws NumericalError if a formula gives an impossible density or p + p_inf.
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 /// The same, with rules only for the sides beyond which a box of cells reaches.
@@ -120,12 +122,13 @@ GhostRules<D> withLaws(GhostRules<D> rules, const Mixture<K>& laws) {
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The rule for a cell beyond a side, or for the adjacent cell inside: that of the part to which the face belongs.
+/// The rule at a face of a side, given the cell beyond the face or the adjacent cell inside: the rule of the part to
+/// which the face belongs.
 template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 
-/// Fills the cells of a box that are outside the grid; the cells on the grid must be known, and so must the inner cells
-/// that the conditions at a side use.
+/// Fills the cells of a box that are outside the grid. It needs the state of the cells of the box on the grid, and of
+/// the inner cells that the conditions at a side use.
 template <int D, int K>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows, const Box& box);
 template <int D, int K>

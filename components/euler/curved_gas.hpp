@@ -7,19 +7,19 @@
 namespace tushar::euler {
 
 /// The cold curve of a substance: pressure [Pa] and energy [J/m³] as functions of density, with dE/drho = (E + p) /
-/// rho, so that compression without heat costs p dV.
+/// rho, so that the energy rises by the work of compression without heat.
 struct ColdCurve {
   enum class Kind { jwl, murnaghan, linear };
 
   Kind kind = Kind::jwl;
-  double density = 1;  ///< rho_0, kg/m³
+  double density = 1;  ///< density rho_0 [kg/m³]
   /// p = A exp(-R1 V) + B exp(-R2 V) + C V^-(1 + omega), V = rho_0 / rho; the energy is 0 at V = infinity.
   /// Source: E. L. Lee, H. C. Hornig & J. W. Kury, Adiabatic expansion of high explosive detonation products,
   /// UCRL-50422 (1968).
   double a = 0, b = 0, c = 0, r1 = 1, r2 = 1, omega = 1;
-  /// p = P0 + ((rho / rho_0)^n - 1) / (n K), K the compressibility [1/Pa] at rho_0; below rho_0 P0 (rho / rho_0)^(1 /
-  /// (K P0)), which has the same slope there and stays positive. The energy is 0 at rho_0. Source: F. D. Murnaghan,
-  /// Proc. Natl. Acad. Sci. 30 (1944) 244.
+  /// p = P0 + ((rho / rho_0)^n - 1) / (n K), with the compressibility K [1/Pa] at rho_0. Below rho_0, p = P0 (rho /
+  /// rho_0)^(1 / (K P0)), which continues with the same slope and stays positive. The energy is 0 at rho_0. Source: F.
+  /// D. Murnaghan, Proc. Natl. Acad. Sci. 30 (1944) 244.
   double exponent = 1, compressibility = 1, pressureThere = 1;
   /// p = P0 + A (rho / rho_0 - 1), with A in `a` and P0 in `pressureThere`; the energy is 0 at rho_0.
 
@@ -39,13 +39,14 @@ struct ColdCurve {
     const double perMass = a / r1 * std::exp(-r1 * volume) + b / r2 * std::exp(-r2 * volume);
     return rho / density * (perMass + volume / omega * tail(volume));
   }
-  /// dp/drho, m²/s².
+  /// The slope dp/drho [m²/s²].
   double slope(double rho) const {
     if (kind == Kind::linear) return a / density;
     if (kind == Kind::murnaghan) {
       const double ratio = rho / density;
       const double power = ratio >= 1 ? exponent : 1 / (compressibility * pressureThere);
-      // Far below rho_0 nothing is left of pressure and stiffness; what waves need to stay apart is kept.
+      // Far below rho_0, pressure and stiffness vanish; a small slope remains, so that the speeds of waves stay
+      // distinct.
       return std::max(std::pow(ratio, power - 1), 1e-12) / (compressibility * density);
     }
     const double volume = density / rho;
@@ -59,54 +60,56 @@ struct ColdCurve {
     if (ratio < 1) return pressureThere * std::pow(ratio, 1 / (compressibility * pressureThere));
     return pressureThere + (std::pow(ratio, exponent) - 1) / (exponent * compressibility);
   }
-  /// Energy per volume at rho_0.
+  /// The energy per mass times rho_0 [J/m³].
   double murnaghanEnergy(double ratio) const {
     if (ratio < 1) return pressureThere * rise(ratio, 1 / (compressibility * pressureThere));
     const double bulk = 1 / (exponent * compressibility);
     return (pressureThere - bulk) * (1 - 1 / ratio) + bulk * rise(ratio, exponent);
   }
-  /// Integral of x^(m - 2) from 1.
+  /// The integral of x^(m - 2) from 1 to `ratio`.
   static double rise(double ratio, double m) {
     return m == 1 ? std::log(ratio) : (std::pow(ratio, m - 1) - 1) / (m - 1);
   }
 };
 
-// The equation of state of a gas that is not a stiffened one. A state is the density [kg/m³] and a number that with it
-// gives pressure and energy: the pressure itself [Pa] or, of a substance whose pressure does not depend on its heat,
-// the heat rho c_v T [J/m³].
+// The equations of state of gases that are not stiffened gases. A state consists of the density [kg/m³] and a second
+// number, the last component, which together with the density determines pressure and energy. The second number is the
+// pressure [Pa] or, if the pressure does not depend on the heat, the heat rho c_v T [J/m³].
 
-/// p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T: after Mie & Grueneisen. Gamma is constant or, with a linear
-/// cold curve, Gamma rho is. With Gamma = 0 the pressure is that of the density alone.
+/// The equation of state p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T, after Mie & Grueneisen. Gamma is
+/// constant or, with a linear cold curve, Gamma rho is constant. With Gamma = 0 the pressure depends on the density
+/// alone.
 ///
-/// rho E and so the energy of mixed states are convex where p_cold rises with the density, so that the heat of a mean
-/// of possible states is positive.
+/// Where p_cold increases with the density, rho E_cold is convex; hence a mean of admissible states has a positive
+/// heat.
 class CurvedGas {
  public:
-  /// `gamma` is the Grüneisen parameter, at least 0, with a linear cold curve that at rho_0; the specific heat is c_v,
-  /// J/(kg K).
+  /// `gamma` is the Grüneisen parameter, at least 0; with a linear cold curve it is the value at rho_0. The specific
+  /// heat c_v is in J/(kg K).
   CurvedGas(const ColdCurve& cold, double gamma, double specificHeat)
       : cold_(cold), gamma_(gamma), specificHeat_(specificHeat) {}
 
   const ColdCurve& cold() const { return cold_; }
   bool isBarotropic() const { return gamma_ == 0; }
 
-  /// p [Pa] for an internal energy per volume [J/m³].
+  /// The pressure p [Pa] at a density and an internal energy per volume [J/m³].
   double pressure(double rho, double energy) const {
     return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gammaAt(rho) * (energy - cold_.energy(rho)));
   }
-  /// The last number of a state for an internal energy per volume.
+  /// The last component of the state with a given density and internal energy per volume.
   double last(double rho, double energy) const {
     return isBarotropic() ? energy - cold_.energy(rho) : pressure(rho, energy);
   }
   double pressureOf(double rho, double last) const { return isBarotropic() ? cold_.pressure(rho) : last; }
   double energyOf(double rho, double last) const { return cold_.energy(rho) + heat(rho, last); }
-  /// c² = p_cold' + (1 + Gamma) (p - p_cold) / rho; with a constant Gamma rho, Gamma in place of 1 + Gamma.
+  /// The squared speed of sound, c² = p_cold' + (1 + Gamma) (p - p_cold) / rho; if Gamma rho is constant, Gamma
+  /// replaces 1 + Gamma.
   double soundSpeedSquared(double rho, double last) const {
     const double factor = isLinear() ? gammaAt(rho) : 1 + gamma_;
     const double thermal = isBarotropic() ? 0.0 : factor * (last - cold_.pressure(rho)) / rho;
     return cold_.slope(rho) + thermal;
   }
-  /// The heat per volume, which must be above 0.
+  /// The thermal energy per volume; it is greater than 0 in possible states.
   double heat(double rho, double last) const {
     return isBarotropic() ? last : (last - cold_.pressure(rho)) / gammaAt(rho);
   }
@@ -115,12 +118,12 @@ class CurvedGas {
   static double greatestEnergy(double) { return std::numeric_limits<double>::infinity(); }
 
   double temperature(double rho, double energy) const { return (energy - cold_.energy(rho)) / (rho * specificHeat_); }
-  /// The last number of a state for a temperature [K].
+  /// The last component of the state with a given density and temperature [K].
   double lastAt(double rho, double temperature) const {
     const double heat = rho * specificHeat_ * temperature;
     return isBarotropic() ? heat : cold_.pressure(rho) + gammaAt(rho) * heat;
   }
-  /// rho for a pressure and a temperature, by bisection to round-off.
+  /// The density rho at a given pressure and temperature, by bisection to round-off.
   double densityAt(double pressure, double temperature) const {
     const auto below = [&](double rho) { return pressureOf(rho, lastAt(rho, temperature)) < pressure; };
     double least = cold_.density, most = cold_.density;
@@ -133,11 +136,11 @@ class CurvedGas {
     }
     return most;
   }
-  /// Entropy per mass over c_v, except for a constant: ln T minus the integral of Gamma d(ln rho).
+  /// The entropy per mass over c_v, up to a constant: ln T minus the integral of Gamma d(ln rho).
   double entropy(double rho, double energy) const {
     return std::log(temperature(rho, energy)) + (isLinear() ? gammaAt(rho) : -gamma_ * std::log(rho));
   }
-  /// Approximately p / (rho u²) behind a strong shock, which accelerates gas at rest to the speed u.
+  /// The approximate ratio p / (rho u²) behind a strong shock that accelerates gas at rest to the speed u.
   double shockSlope() const {
     return 0.5 * (cold_.kind == ColdCurve::Kind::murnaghan ? cold_.exponent + 1 : gamma_ + 2);
   }
@@ -150,20 +153,20 @@ class CurvedGas {
   double gamma_, specificHeat_;
 };
 
-/// Water: v = v_0 (1 - k_0 p + L x²), x = a p + T - T_0. Its heat at p = 0 is c_p = c_0 + b (T_0 - T), that at other
-/// pressures follows from v. It holds above the greatest density (x > 0), and up to the x at which c_v has fallen to
-/// half of c_p at p = 0: not far above, water would become denser without any pressure.
-/// Source: J. S. Thomsen & T. J. Hartka, Am. J. Phys. 30 (1962) 26.
+/// Water: v = v_0 (1 - k_0 p + L x²), x = a p + T - T_0. Its specific heat at p = 0 is c_p = c_0 + b (T_0 - T); at
+/// other pressures, it follows from v. The law is valid for x > 0, that is, above the temperature of greatest density,
+/// and up to the x at which c_v has fallen to half of c_p at p = 0. At a slightly greater x, water would become denser
+/// without any pressure. Source: J. S. Thomsen & T. J. Hartka, Am. J. Phys. 30 (1962) 26.
 class Water {
  public:
   struct Numbers {
-    double a = 2e-7;           ///< K/Pa
-    double b = 2.6;            ///< J/(kg K²)
-    double heat = 4205.7;      ///< c_0, J/(kg K)
-    double stiffness = 5e-10;  ///< k_0, 1/Pa
-    double temperature = 277;  ///< T_0, K
-    double bend = 8e-6;        ///< L, 1/K²
-    double volume = 1e-3;      ///< v_0, m³/kg
+    double a = 2e-7;           ///< a [K/Pa]
+    double b = 2.6;            ///< b [J/(kg K²)]
+    double heat = 4205.7;      ///< heat c_0 [J/(kg K)]
+    double stiffness = 5e-10;  ///< stiffness k_0 [1/Pa]
+    double temperature = 277;  ///< temperature T_0 [K]
+    double bend = 8e-6;        ///< bend L [1/K²]
+    double volume = 1e-3;      ///< volume v_0 [m³/kg]
   };
   explicit Water(const Numbers& numbers) : n_(numbers) {
     double least = 0, most = 0.5 * n_.stiffness / (n_.bend * n_.a);
@@ -177,7 +180,7 @@ class Water {
   static bool isBarotropic() { return false; }
   double pressure(double rho, double energy) const {
     const double volume = 1 / rho, perMass = energy * volume;
-    // In x, the energy of a volume rises from 0 to the greatest x.
+    // At a given volume, the energy rises with x, which is between 0 and the greatest x.
     double least = 0, most = greatestX_, x = 0.2 * most;
     for (int k = 0; k < 100; ++k) {
       const double p = pressureAtX(volume, x), t = temperatureAt(p, x);
@@ -202,7 +205,7 @@ class Water {
     const double perHeat = expansion(x), perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
     return -1 / (rho * rho * (perPressure + t * perHeat * perHeat / heatOfPressure(last, t)));
   }
-  /// Greater than 0 in possible states.
+  /// A measure of the heat; it is greater than 0 in possible states.
   double heat(double rho, double last) const {
     const double square = xSquared(rho, last);
     return std::min(square, greatestX_ * greatestX_ - square);
@@ -218,7 +221,7 @@ class Water {
     return temperatureAt(p, xAt(rho, p));
   }
   double lastAt(double rho, double temperature) const {
-    // x = a p + T - T_0 in v gives L x² + (k_0 / a) ((T - T_0) - x) + 1 - v / v_0 = 0.
+    // With x = a p + T - T_0, the equation for v becomes L x² + (k_0 / a) ((T - T_0) - x) + 1 - v / v_0 = 0.
     const double half = 0.5 * n_.stiffness / (n_.a * n_.bend), warmer = temperature - n_.temperature;
     const double rest = (2 * half * n_.bend * warmer + 1 - 1 / (rho * n_.volume)) / n_.bend;
     return (rest / (half + std::sqrt(half * half - rest)) - warmer) / n_.a;
@@ -241,7 +244,7 @@ class Water {
     return (n_.bend * x * x + 1 - volume / n_.volume) / n_.stiffness;
   }
   double temperatureAt(double p, double x) const { return n_.temperature - n_.a * p + x; }
-  /// dv/dT at constant p.
+  /// The derivative dv/dT at constant p.
   double expansion(double x) const { return 2 * n_.volume * n_.bend * x; }
   double heatOfPressure(double p, double t) const {
     return n_.heat + n_.b * (n_.temperature - t) - 2 * n_.volume * n_.bend * p * t;
@@ -250,7 +253,8 @@ class Water {
     const double perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
     return heatOfPressure(p, t) + t * expansion(x) * expansion(x) / perPressure;
   }
-  /// e = c_0 w - b w² / 2 + v_0 (k_0 p² / 2 + L (a p (a p + ... ) ...)): h - p v, of dh = c_p dT + (v - T dv/dT) dp.
+  /// The energy per mass, e = c_0 w - b w² / 2 + v_0 (k_0 p² / 2 + L (a p (a p + ... ) ...)). It is h - p v, where h
+  /// follows from dh = c_p dT + (v - T dv/dT) dp.
   double energyPerMass(double p, double t) const {
     const double w = t - n_.temperature, shift = n_.a * p;
     // (x³ - w³) / (3 a) and (x² - w²) / a with x = w + a p, without cancellation.

@@ -69,8 +69,8 @@ std::vector<reference::GasLaw> Euler<D>::gases() const {
   return {{settings_.gas.gamma, settings_.gas.pInfinity}};
 }
 
-/// The criteria of a gas. They include the velocity, as two gases that move apart have equal densities and pressures at
-/// first.
+/// The default refinement criteria of a gas. They include the velocity, because two gases that move apart have equal
+/// densities and pressures at first.
 template <int D>
 std::vector<simulation::Criterion> criteria() {
   std::vector<simulation::Criterion> criteria(3);

@@ -6,16 +6,16 @@
 
 namespace tushar::euler {
 
-/// The variables that show where a gas needs finer cells.
+/// The default refinement criteria of a gas: variables whose differences show where it needs finer cells.
 template <int D>
 std::vector<simulation::Criterion> criteria();
 
-/// Godunov's method for the Euler equations of gas dynamics in D dimensions: dU/dt + sum_d dF_d(U)/dx_d = 0,
-/// U = (rho, rho v, E).
+/// Godunov's method for the Euler equations of gas dynamics in D dimensions: dU/dt + sum_d dF_d(U)/dx_d = 0, U = (rho,
+/// rho v, E).
 ///
-/// A face with `Symmetric`, or with a Dirichlet `Velocity` alone that lies in it, is a wall; one with Dirichlet values
-/// of `Density`, `Velocity` or `Pressure` lets gas in; any other one lets it out. Mass, momentum and energy change by
-/// what flows through the sides of the grid alone.
+/// A face with `Symmetric`, or whose only condition is a tangential Dirichlet `Velocity`, is a wall; a face with
+/// Dirichlet values of `Density`, `Velocity` or `Pressure` is an inflow; any other face is an outflow. Mass, momentum
+/// and energy change only by fluxes through the sides of the grid.
 template <int D>
 class Euler : public Component, public reference::GasSolution {
  public:
@@ -37,15 +37,15 @@ class Euler : public Component, public reference::GasSolution {
 
  protected:
   const Settings& settings() const { return settings_; }
-  /// Whether any quantities are transported with the mass.
+  /// Whether the gas carries any other quantities, whose fluxes follow from the mass flux.
   virtual bool keepsFaceMasses() const { return false; }
 
  private:
   Settings settings_;
 };
 
-/// Diagnostics that do not depend on the type of gas: mass, momentum, energy, kinetic energy, and the smallest density
-/// and energy.
+/// Schedules the diagnostics that do not depend on the type of gas: mass, momentum, energy, kinetic energy, and the
+/// smallest density and energy.
 template <int D>
 void scheduleTotals(TaskList& tasks);
 

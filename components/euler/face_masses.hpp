@@ -6,14 +6,14 @@
 namespace tushar::euler {
 
 namespace c {
-/// The mass that flows through the lower and the upper faces of cells, for scalars that are transported with the gas.
+/// The mass fluxes through the lower and the upper faces of cells, for scalars that the gas carries.
 template <int D>
 inline constexpr std::array<CellLabel<Vec<D>>, 2> massFlux{
-    {{"c.massFluxBelow", "kg/(m^2 s)", "mass through the lower faces"},
-     {"c.massFluxAbove", "kg/(m^2 s)", "mass through the upper faces"}}};
+    {{"c.massFluxBelow", "kg/(m^2 s)", "mass flux through the lower faces"},
+     {"c.massFluxAbove", "kg/(m^2 s)", "mass flux through the upper faces"}}};
 }  // namespace c
 
-/// The mass that flows through the faces of cells in a step, per area and time; empty if nothing needs it.
+/// Views of the mass fluxes through the faces of cells in a step [kg/(m² s)]; empty if no task needs them.
 template <int D>
 struct FaceMasses {
   std::optional<CellView<Vec<D>>> below = {}, above = {};
@@ -22,7 +22,7 @@ struct FaceMasses {
     if (!areKept) return {};
     return {.below = take(computes(c::massFlux<D>[0])), .above = take(computes(c::massFlux<D>[1]))};
   }
-  /// Stores the mass fluxes of the cells of a block across an axis.
+  /// Stores the mass fluxes across an axis through the faces of the cells of a block.
   template <int K>
   void keep(const Box& block, int axis, const Rows<D, K>& flux) const {
     if (!below) return;

@@ -5,15 +5,16 @@
 
 namespace tushar::euler {
 
-/// The gas at a face at which two states meet: rho, v, the pressure, and total energy per volume.
+/// The state of the gas at a face where two states meet: rho, v and the pressure in `w`, and the total energy per
+/// volume.
 template <int D, int K = 1>
 struct FaceState {
   State<D, K> w;
   double energy;
 };
 
-/// F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n; for several gases, also each mass and
-/// volume fraction times v_n.
+/// The flux F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, where m = rho v_n. For several gases, it also
+/// contains the mass and the volume fraction of each gas, times v_n.
 template <int D, int Axis, int K>
 State<D, K> fluxOf(const FaceState<D, K>& face) {
   const double normal = face.w[kVelocity(Axis)];
@@ -29,10 +30,10 @@ State<D, K> fluxOf(const FaceState<D, K>& face) {
 
 /// The approximate Riemann solver with three waves (HLLC).
 ///
-/// Wave speeds: the outer ones of both states and of Einfeldt's mean (section 10.5), of the contact (10.37). Between
-/// the waves the states (10.39) and the mean of the two pressures (10.36), which are equal except for round-off: so the
-/// mirrored problem gives the mirrored flux to the last bit.
-/// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
+/// Wave speeds: for the outer waves, those of both states and of Einfeldt's mean (section 10.5); for the contact,
+/// (10.37). Between the waves: the states (10.39), with the mean of the two pressures (10.36). These are equal except
+/// for round-off; the mean makes the flux of the mirrored problem bitwise mirrored. Source: E. F. Toro, Riemann Solvers
+/// and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
 struct Hllc {
   template <int D, int Axis, class G>
   static FaceState<D, kGases<G>> solve(const G& gas, const State<D, kGases<G>>& left,
@@ -78,7 +79,8 @@ struct Hllc {
   }
 };
 
-/// The exact solution at x/t = 0 (Toro, chapter 4), for an ideal gas with the pressure p + p_inf.
+/// The exact solution of the Riemann problem at x/t = 0 (Toro, chapter 4), for an ideal gas with the pressure p +
+/// p_inf.
 struct ExactFlux {
   template <int D, int Axis, class G>
   static FaceState<D> solve(const G& gas, const State<D>& left, const State<D>& right) {

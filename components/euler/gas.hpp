@@ -14,18 +14,18 @@
 namespace tushar::euler {
 
 /// The state of a cell in D dimensions, as numbers that loops over rows keep in registers. Primitive: density [kg/m³],
-/// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume. Of
-/// K > 1 gases (mixture.hpp) the mass of each per volume of the cell [kg/m³] follows, and its share of the volume; the
-/// density is the sum of the masses.
+/// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume.
+/// For K > 1 gases (mixture.hpp), followed by the mass of each gas per volume of the cell [kg/m³] and its volume
+/// fraction; the density is then the sum of the masses.
 template <int D, int K = 1>
 using State = std::array<double, D + 2 + (K > 1 ? 2 * K : 0)>;
 
-/// Indices in a State: density, component `axis` of velocity or momentum, pressure or total energy.
+/// Indices of the components of a State: density, component `axis` of velocity or momentum, pressure or total energy.
 inline constexpr std::size_t kDensity = 0;
 constexpr std::size_t kVelocity(int axis) { return axis + 1; }
 template <int D>
 inline constexpr std::size_t kPressure = D + 1;
-/// Indices of the mass and the volume fraction of gas k.
+/// Indices of the mass and the volume fraction of gas k in a State.
 template <int D>
 constexpr std::size_t kMass(int k) {
   return D + 2 + k;
@@ -35,54 +35,54 @@ constexpr std::size_t kShare(int k) {
   return D + 2 + K + k;
 }
 
-/// A stiffened gas: p = (gamma - 1) rho e - gamma p_inf; with p_inf = 0 an ideal gas.
+/// A stiffened gas: p = (gamma - 1) rho e - gamma p_inf. With p_inf = 0, it is an ideal gas.
 ///
-/// With P = p + p_inf all waves are those of an ideal gas of pressure P.
-/// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
+/// With P = p + p_inf, all waves are those of an ideal gas with pressure P. Source: F. H. Harlow & A. A. Amsden, Fluid
+/// Dynamics, LANL report LA-4700 (1971).
 struct StiffenedGas {
-  double gamma = 1.4;    ///< ratio of specific heats, above 1
-  double pInfinity = 0;  ///< Pa
+  double gamma = 1.4;    ///< ratio of specific heats, greater than 1
+  double pInfinity = 0;  ///< p_inf [Pa]
 
-  /// c² [m²/s²] = gamma (p + p_inf) / rho.
+  /// Squared speed of sound, c² [m²/s²] = gamma (p + p_inf) / rho.
   double soundSpeedSquared(double density, double pressure) const { return gamma * (pressure + pInfinity) / density; }
   /// Internal energy per volume [J/m³] = (p + gamma p_inf) / (gamma - 1).
   double energyOf(double, double pressure) const { return (pressure + gamma * pInfinity) * (1 / (gamma - 1)); }
-  /// Pressure [Pa] for an internal energy per volume [J/m³].
+  /// Pressure [Pa] at an internal energy per volume [J/m³].
   double pressure(double, double internalEnergyPerVolume) const {
     return (gamma - 1) * internalEnergyPerVolume - gamma * pInfinity;
   }
-  /// The number of a state that represents heat: the pressure.
+  /// The last component of a state, which represents heat: the pressure.
   double last(double density, double internalEnergyPerVolume) const {
     return pressure(density, internalEnergyPerVolume);
   }
   static double pressureOf(double, double pressure) { return pressure; }
   double shockSlope() const { return 0.5 * (gamma + 1); }
-  /// p + p_inf [Pa], which must be above 0.
+  /// p + p_inf [Pa]; it is greater than 0 in possible states.
   double heat(double, double pressure) const { return pressure + pInfinity; }
 };
 
-/// A gas: a stiffened gas unless it has its own law.
+/// A gas: a stiffened gas, or a gas with its own law.
 struct Gas {
   using Law = std::variant<CurvedGas, Water, RealGas>;
 
-  double gamma = 1.4;                        ///< ratio of specific heats, above 1
-  double pInfinity = 0;                      ///< Pa
-  double specificHeat = 0;                   ///< c_v, J/(kg K); 0: no temperature is known
-  int material = 0;                          ///< its index in the scene, for conditions at sides of the grid
-  std::shared_ptr<const Law> law = nullptr;  ///< null for a stiffened gas
+  double gamma = 1.4;                        ///< ratio of specific heats, greater than 1
+  double pInfinity = 0;                      ///< p_inf [Pa]
+  double specificHeat = 0;                   ///< c_v [J/(kg K)]; 0: the temperature is unknown
+  int material = 0;                          ///< index of the gas in the scene, for boundary conditions
+  std::shared_ptr<const Law> law = nullptr;  ///< the gas's own law; null for a stiffened gas
 
-  /// Calls `use` with the gas as a StiffenedGas, or with its law, so that loops branch on the law only once, at the
-  /// start.
+  /// Calls `use` with the gas as a StiffenedGas, or with its own law, so that loops branch on the law only once, before
+  /// they start.
   template <class Use>
   decltype(auto) withLaw(Use&& use) const {
     if (!law) return use(StiffenedGas{gamma, pInfinity});
     return std::visit(use, *law);
   }
 
-  // Of a primitive state, density and its last number. That is the pressure but in gases whose pressure is that of the
-  // density alone, where it is the heat per volume.
+  // Several of the following functions take the density and the last component of a primitive state. The last component
+  // is the pressure, except in gases whose pressure depends only on the density; there, it is the heat per volume.
 
-  /// c² [m²/s²].
+  /// Squared speed of sound, c² [m²/s²].
   double soundSpeedSquared(double density, double last) const {
     return withLaw([&](const auto& of) { return of.soundSpeedSquared(density, last); });
   }
@@ -94,37 +94,38 @@ struct Gas {
   double pressureOf(double density, double last) const {
     return withLaw([&](const auto& of) { return of.pressureOf(density, last); });
   }
-  /// A quantity that must be greater than 0: p + p_inf, the heat, or a number with the same sign.
+  /// A quantity that is greater than 0 in possible states: p + p_inf, the heat, or a number with the same sign.
   double heat(double density, double last) const {
     return withLaw([&](const auto& of) { return of.heat(density, last); });
   }
-  /// Pressure [Pa] for an internal energy per volume [J/m³].
+  /// Pressure [Pa] at a density and an internal energy per volume [J/m³].
   double pressure(double density, double internalEnergyPerVolume) const {
     return withLaw([&](const auto& of) { return of.pressure(density, internalEnergyPerVolume); });
   }
-  /// The last number of a state with an internal energy per volume [J/m³].
+  /// The last component of the state with a given density and internal energy per volume [J/m³].
   double last(double density, double internalEnergyPerVolume) const {
     return withLaw([&](const auto& of) { return of.last(density, internalEnergyPerVolume); });
   }
 
-  /// R [J/(kg K)] = (gamma - 1) c_v in p + p_inf = rho R T.
+  /// The gas constant R = (gamma - 1) c_v [J/(kg K)] in p + p_inf = rho R T.
   double gasConstant() const { return (gamma - 1) * specificHeat; }
-  /// The last number of a state for a temperature [K].
+  /// The last component of the state with a given density and temperature [K].
   double lastAt(double density, double temperature) const {
     if (!law) return gasConstant() * density * temperature - pInfinity;
     return std::visit([&](const auto& of) { return of.lastAt(density, temperature); }, *law);
   }
-  /// Density [kg/m³] for a pressure [Pa] and a temperature [K].
+  /// Density [kg/m³] at a given pressure [Pa] and temperature [K].
   double densityAt(double pressure, double temperature) const {
     if (!law) return (pressure + pInfinity) / (gasConstant() * temperature);
     return std::visit([&](const auto& of) { return of.densityAt(pressure, temperature); }, *law);
   }
-  /// T [K] for a density and an internal energy per volume [J/m³]: c_v T = e - p_inf / rho if there is no law.
+  /// Temperature [K] at a given density and internal energy per volume [J/m³]; if the gas has no law of its own, from
+  /// c_v T = e - p_inf / rho.
   double temperature(double density, double internalEnergyPerVolume) const {
     if (!law) return (internalEnergyPerVolume - pInfinity) / (density * specificHeat);
     return std::visit([&](const auto& of) { return of.temperature(density, internalEnergyPerVolume); }, *law);
   }
-  /// The limits of a law for the internal energy, J/kg.
+  /// The smallest and the largest internal energy that the gas can have at a density [J/kg].
   std::pair<double, double> energyLimits(double density) const {
     return std::visit(
         [&](const auto& of) {
@@ -132,17 +133,17 @@ struct Gas {
         },
         *law);
   }
-  /// p / (rho u²) behind a strong shock, which accelerates gas at rest to the speed u: (gamma + 1) / 2.
+  /// p / (rho u²) behind a strong shock that accelerates gas at rest to the speed u: (gamma + 1) / 2.
   double shockSlope() const {
     return withLaw([](const auto& of) { return of.shockSlope(); });
   }
-  /// Whether the pressure depends on the density alone.
+  /// Whether the pressure depends only on the density.
   bool isBarotropic() const {
     return law && std::visit([](const auto& of) { return of.isBarotropic(); }, *law);
   }
 };
 
-/// The law of a gas, which must have this type.
+/// The law of a gas, whose type is Law.
 template <class Law>
 Law lawOf(const Gas& gas) {
   if constexpr (std::is_same_v<Law, StiffenedGas>)
@@ -154,13 +155,13 @@ Law lawOf(const Gas& gas) {
 /// The number of gases that a law describes.
 template <class G>
 inline constexpr int kGases = 1;
-/// The law in a state: for a single gas, its own.
+/// The law that applies in a state; for a single gas, the same in all states.
 template <int D, class G>
 const G& lawIn(const G& gas, const State<D>&) {
   return gas;  // NOLINT(bugprone-return-const-ref-from-parameter): callers keep the gas
 }
 
-/// |v|² of a primitive state.
+/// The squared speed |v|² of a primitive state.
 template <int D, std::size_t N>
 double speedSquared(const std::array<double, N>& w) {
   double sum = 0;
@@ -168,7 +169,7 @@ double speedSquared(const std::array<double, N>& w) {
   return sum;
 }
 
-/// rho, rho v, E from rho, v and the last number; G is Gas, one of its laws, or the law of a mixture.
+/// Computes rho, rho v, E from rho, v and the last component; G is Gas, one of its laws, or the law of a mixture.
 template <int D, class G>
 State<D, kGases<G>> conserved(const G& gas, const State<D, kGases<G>>& w) {
   State<D, kGases<G>> u = w;
@@ -177,7 +178,7 @@ State<D, kGases<G>> conserved(const G& gas, const State<D, kGases<G>>& w) {
   return u;
 }
 
-/// rho, v and the last number from rho, rho v, E.
+/// Computes rho, v and the last component from rho, rho v, E.
 template <int D, class G>
 State<D, kGases<G>> primitive(const G& gas, const State<D, kGases<G>>& u) {
   State<D, kGases<G>> w = u;

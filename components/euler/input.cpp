@@ -84,7 +84,7 @@ const Schema<EulerSection>& schema() {
   return schema;
 }
 
-/// The values that a face may prescribe: Dirichlet ones, with a positive density and p + p_infinity.
+/// Checks the values prescribed at faces: Dirichlet values, with a positive density and p + p_infinity.
 void checkBoundaries(const Element& root, double pInfinity, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");

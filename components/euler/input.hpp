@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::euler

@@ -12,7 +12,7 @@ struct StateLabels {
   CellLabel<double> totalEnergy;
 };
 
-/// Cell variables. The first three are the state; the others are derived if a scene saves them.
+/// Labels of cell variables. The first three are the state; the others are derived if a scene saves them.
 namespace c {
 inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mass density"};
 template <int D>
@@ -22,25 +22,24 @@ inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "velocity"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "speed over the speed of sound"};
+inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "Mach number: speed divided by the speed of sound"};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
-/// The state of each of several gases.
-inline constexpr CellLabel<double> gasMass{"c.gasMass", "kg/m^3",
-                                           "mass of one of several gases per volume of the cell"};
-inline constexpr CellLabel<double> gasShare{"c.gasShare", "1", "fraction of the cell that the gas fills"};
+/// State variables of each gas, if there are several.
+inline constexpr CellLabel<double> gasMass{"c.gasMass", "kg/m^3", "mass of one of several gases, per cell volume"};
+inline constexpr CellLabel<double> gasShare{"c.gasShare", "1", "fraction of the cell that one of several gases fills"};
 }  // namespace c
 
-/// The state of gas that flows in through a side of the grid.
+/// Labels of the state of gas that flows in through a side of the grid.
 namespace boundary {
 inline constexpr BoundaryLabel<double> density{"Density"};
 inline constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
 inline constexpr BoundaryLabel<double> pressure{"Pressure"};
 inline constexpr BoundaryLabel<double> temperature{"Temperature"};
-/// The condition that lets waves out: the pressure far away [Pa], sigma and 0.
+/// The condition that lets waves out. Its three components are the far-field pressure [Pa], sigma, and 0.
 inline constexpr BoundaryLabel<Vec3> waves{"LODI"};
 }  // namespace boundary
 
-/// Totals over all cells.
+/// Labels of totals over all cells.
 namespace total {
 using namespace simulation::total;
 using namespace reference::total;

@@ -2,30 +2,31 @@
 
 #include "components/euler/gas.hpp"
 
-// Several gases in a cell at one pressure and one velocity, each in its share of the volume: the model of five
-// equations, of G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577. The mass of each gas is kept, as are
-// momentum and total energy, and the shares z_k go with the flow, dz_k/dt + v . grad z_k = 0.
+// Several gases in a cell at one pressure and one velocity, each in its part of the volume: the five-equation model of
+// G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577. The mass of each gas, the momentum and the total
+// energy are conserved; the volume fractions z_k move with the flow, dz_k/dt + v . grad z_k = 0.
 
 namespace tushar::euler {
 
-/// Stiffened gases that share a cell. With G = sum of z_k / (gamma_k - 1) and S = sum of z_k gamma_k p_inf,k / (gamma_k
-/// - 1), which are linear in the shares, their energy per volume is p G + S. So a contact keeps its pressure.
+/// Stiffened gases that share a cell. Their energy per volume is p G + S, where G = sum of z_k / (gamma_k - 1) and S =
+/// sum of z_k gamma_k p_inf,k / (gamma_k - 1). G and S are linear in the volume fractions, so the pressure stays
+/// uniform across a contact.
 struct MixedGas {
   double softness = 0;   ///< G
-  double stiffness = 0;  ///< S, J/m³
+  double stiffness = 0;  ///< stiffness S [J/m³]
 
   /// Adds a gas with its volume fraction.
   void add(double share, double gamma, double pInfinity) {
     softness += share / (gamma - 1);
     stiffness += share * gamma * pInfinity / (gamma - 1);
   }
-  /// c² [m²/s²], from rho c² = (p (1 + G) + S) / G.
+  /// Squared speed of sound c² [m²/s²], from rho c² = (p (1 + G) + S) / G.
   double soundSpeedSquared(double density, double pressure) const {
     return (pressure * (1 + softness) + stiffness) / (softness * density);
   }
   /// Internal energy per volume [J/m³].
   double energyOf(double, double pressure) const { return pressure * softness + stiffness; }
-  /// Pressure [Pa] of an internal energy per volume [J/m³].
+  /// Pressure [Pa] at an internal energy per volume [J/m³].
   double pressure(double, double internalEnergyPerVolume) const {
     return (internalEnergyPerVolume - stiffness) / softness;
   }
@@ -33,12 +34,12 @@ struct MixedGas {
     return pressure(density, internalEnergyPerVolume);
   }
   static double pressureOf(double, double pressure) { return pressure; }
-  /// p + p_inf [Pa] of the stiffened gas with the same G and S, which must be greater than 0.
+  /// p + p_inf [Pa] of the stiffened gas with the same G and S; it is greater than 0 in possible states.
   double heat(double, double pressure) const { return pressure + leastPressure(); }
   double leastPressure() const { return stiffness / (1 + softness); }
-  /// (gamma + 1) / 2 of that gas.
+  /// (gamma + 1) / 2 of the equivalent stiffened gas.
   double shockSlope() const { return 1 + 0.5 / softness; }
-  /// The equivalent stiffened gas; its numbers are NaN for impossible shares.
+  /// The equivalent stiffened gas; its parameters are NaN for impossible volume fractions.
   Gas alike() const {
     Gas gas;
     gas.gamma = softness > 0 ? 1 + 1 / softness : std::nan("");
@@ -58,7 +59,7 @@ struct Mixture {
 template <int K>
 inline constexpr int kGases<Mixture<K>> = K;
 
-/// The law for the shares of the gases in a state.
+/// The law that applies in a state, from the volume fractions that the state contains.
 template <int D, int K>
 MixedGas lawIn(const Mixture<K>& gases, const State<D, K>& w) {
   MixedGas mixed;

@@ -12,7 +12,7 @@
 
 namespace tushar::euler {
 
-/// The address of a row of `count` cells of a view; in builds with checks, both ends are checked.
+/// The address of a row of `count` cells in a view. Builds with checks check both ends of the row.
 template <int D, class T>
 T* rowOf(const CellView<T>& view, Index<D> first, int count) {
   T* row = &view[first];
@@ -28,8 +28,8 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
                                           : Index3{{64, 8, 8}};
 
-/// Number of cells across a column of work, including ghosts: the planes of the column that are in use fit into the
-/// second-level cache.
+/// Number of cells in a plane of a column of work, including ghosts. With it, the planes of a column that are in use
+/// fit into the second-level cache.
 inline constexpr int kColumnCells = 2400;
 
 /// The extents of the blocks that tile a box. In two dimensions, blocks of narrow boxes are higher, with as many cells
@@ -55,7 +55,7 @@ Box largestBlock(Box box) {
   return box;
 }
 
-/// Calls `visit(block)` for boxes that tile the box, none larger than `extents`.
+/// Calls `visit(block)` for blocks that tile the box, none larger than `extents`.
 template <int D, class Visit>
 void forEachBlock(const Box& box, const Index3& extents, Visit&& visit) {
   Box blocks{{}, Index3::filled(1)};
@@ -75,14 +75,14 @@ void forEachBlock(const Box& box, Visit&& visit) {
   forEachBlock<D>(box, blockOf<D>(box), std::forward<Visit>(visit));
 }
 
-/// The extents along x and y of the columns along z that tile a box, each with `reach` ghost cells around it: as wide
-/// as a block along x, and as wide as kColumnCells allows along y.
+/// The extents of columns along z that tile a box. Along x, a column is as wide as a block; along y, it is as wide as
+/// kColumnCells allows with `reach` ghost cells on each side.
 inline Index3 columnOf(const Box& box, int reach) {
   const int width = std::min(kBlock<3>[0], box.extent(0));
   return {{width, std::clamp(kColumnCells / (width + 2 * reach) - 2 * reach, 1, box.extent(1)), box.extent(2)}};
 }
 
-/// Uninitialised memory, for numbers that are all written before they are read.
+/// Uninitialised memory for numbers that are all written before they are read.
 template <class T>
 struct Unfilled : std::allocator<T> {
   template <class U>
@@ -98,18 +98,18 @@ struct Unfilled : std::allocator<T> {
   }
 };
 
-/// One State of K gases per cell of a box, each number in an array of its own, the first axis fastest.
+/// One State of K gases per cell of a box. Each component is in a separate array, with the first axis fastest.
 ///
-/// Of a box of three dimensions it may hold some planes of z alone: as many consecutive ones as it has room for. A
-/// plane takes the place of the one that is as many before it or behind.
+/// For a three-dimensional box, it may have space for only a few consecutive planes of z. A new plane then replaces the
+/// plane that lies this number of planes before or behind it.
 template <int D, int K = 1>
 class Rows {
  public:
   static constexpr std::size_t numbers = std::tuple_size_v<State<D, K>>;
   using Pointers = std::array<double*, numbers>;
 
-  /// Space for boxes of up to `cells` cells or, in three dimensions, for a number of planes of z with up to `cells`
-  /// cells each. All values are 0 at first, or anything.
+  /// Allocates space for boxes of up to `cells` cells or, in three dimensions, for a number of planes of z with up to
+  /// `cells` cells each. The initial values are 0 or undefined.
   explicit Rows(std::size_t cells, int planes = 0) : Rows(cells, planes, Values(room(cells, planes), 0.0)) {}
   static Rows unfilled(std::size_t cells, int planes = 0) { return {cells, planes, Values(room(cells, planes))}; }
 
@@ -124,14 +124,14 @@ class Rows {
   /// Distance in memory between neighbours along an axis; undefined along z if only some planes are stored.
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
 
-  /// Pointers to the numbers of a cell; those of the next cell of its row follow them in memory.
+  /// Pointers to the components of a cell. Those of the next cells of its row follow in memory.
   Pointers at(const Index<D>& cell) {
     const std::ptrdiff_t offset = offsetOf(cell);
     Pointers pointers;
     for (std::size_t k = 0; k < numbers; ++k) pointers[k] = values_.data() + k * cells_ + offset;
     return pointers;
   }
-  /// One number of a cell, and all of them.
+  /// One component of a cell, and all components.
   double number(const Index<D>& cell, std::size_t k) const { return values_[k * cells_ + offsetOf(cell)]; }
   State<D, K> state(const Index<D>& cell) const {
     State<D, K> state;
@@ -156,7 +156,7 @@ class Rows {
 
   std::size_t cells_;
   Values values_;
-  int planes_ = 0;  ///< that it holds; 0: all
+  int planes_ = 0;  ///< number of planes stored; 0: all
   Box box_;
   std::array<std::ptrdiff_t, 3> stride_{};
 };

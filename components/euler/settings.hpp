@@ -13,14 +13,14 @@
 
 namespace tushar::euler {
 
-/// The gas of a region at the start, which may vary in space.
+/// The initial gas in a region; it may vary in space.
 struct GasObject {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
-  input::Expression density;                          ///< kg/m³
-  input::Expression pressure;                         ///< Pa; ignored if there is a temperature
-  input::VectorExpression velocity;                   ///< m/s
-  std::optional<input::Expression> temperature = {};  ///< K
+  input::Expression density;                          ///< density [kg/m³]
+  input::Expression pressure;                         ///< pressure [Pa]; ignored if a temperature is given
+  input::VectorExpression velocity;                   ///< velocity [m/s]
+  std::optional<input::Expression> temperature = {};  ///< temperature [K]
   std::optional<input::Expression> share = {};        ///< volume fraction, if there are several gases; 1 by default
 };
 
@@ -28,7 +28,7 @@ enum class FluxKind { exact, hllc };
 enum class Reconstruction { firstOrder, musclHancock };
 enum class Limiter { minmod, vanLeer, mc };
 
-/// The choices of the method.
+/// The numerical method.
 struct Method {
   FluxKind flux = FluxKind::hllc;
   Reconstruction reconstruction = Reconstruction::musclHancock;
@@ -41,12 +41,13 @@ struct Settings {
   std::string section = "Euler";  ///< path of the section with the objects
   std::string name = {};          ///< name of the gas
   Method method;
-  bool objectsMayBeEmpty = false;  ///< whether objects may contain no cell centre, as parts of what the scene has
-  double cfl = 0.8;                ///< dt max(sum_d (|v_d| + c) / h_d)
+  /// Whether objects may contain no cell centre; true if they are parts into which an object of the scene was divided.
+  bool objectsMayBeEmpty = false;
+  double cfl = 0.8;  ///< Courant number: dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
-  std::vector<GasObject> objects;  ///< where they overlap, the last one applies
-  /// Changes the velocity and, for objects that have one, the temperature at the start, at a point with the density
-  /// `rho`.
+  std::vector<GasObject> objects;  ///< regions with their initial gas; where they overlap, the last one applies
+  /// Changes the initial velocity and, for objects with a temperature, the initial temperature at a point with the
+  /// density `rho`.
   std::function<void(const Vec3& point, double rho, Vec3& velocity, double& temperature)> disturb = {};
 };
 

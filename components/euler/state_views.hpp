@@ -8,7 +8,7 @@
 
 namespace tushar::euler {
 
-/// The state that a step reads or writes: T is double or const double.
+/// Views of the state that a step reads (T is const double) or writes (T is double).
 template <int D, class T>
 struct StateViews {
   CellView<T> density;
@@ -16,16 +16,16 @@ struct StateViews {
   CellView<T> totalEnergy;
 };
 
-/// The state of several gases: of the mixture and of each gas.
+/// Views of the state of several gases: of the mixture as a whole, and of each gas.
 template <int D, class T>
 struct MixtureViews : StateViews<D, T> {
   std::vector<CellView<T>> masses, shares;
 };
-/// The views of K gases.
+/// The type of the views for K gases.
 template <int D, int K, class T>
 using ViewsOf = std::conditional_t<K == 1, StateViews<D, T>, MixtureViews<D, T>>;
 
-/// The state at the start of a step, with `ghost` cells around the patch.
+/// Accesses to the state at the start of a step, with `ghost` layers of cells around the patch.
 template <int D>
 struct OldState : StateViews<D, const double> {
   static OldState from(auto& take, int ghost) {
@@ -34,7 +34,7 @@ struct OldState : StateViews<D, const double> {
   }
 };
 
-/// The state that a step computes.
+/// Accesses to the state that a step computes.
 template <int D>
 struct NewState : StateViews<D, double> {
   static NewState from(auto& take) {
@@ -42,7 +42,7 @@ struct NewState : StateViews<D, double> {
   }
 };
 
-/// The state that a task changes.
+/// Accesses to the state that a task changes.
 template <int D>
 struct ChangedState : StateViews<D, double> {
   static ChangedState from(auto& take) {

@@ -45,13 +45,14 @@ simulation::ComponentKind kind() {
                input::atMost(1))
         .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime())
         .value("refinement_tolerance", &Settings::refinementTolerance, 0, "K",
-               "on an adaptive grid, cells are refined where the error of linear interpolation between them is larger; "
-               "0: only a <Variable> of <AMR> refines them",
+               "error of linear interpolation between cells above which an adaptive grid refines them; 0: only a "
+               "<Variable> "
+               "of <AMR> refines them",
                input::nonNegative());
     input::refuseOtherValues(section, "time_integrator", {"explicit"},
                              "for implicit steps, use <SimulationComponent type=\"implicit_heat\"/>");
     input::refuseTag(section, "Solver",
-                     "explicit steps solve no system; <SimulationComponent type=\"implicit_heat\"/> does");
+                     "explicit steps solve no linear system; <SimulationComponent type=\"implicit_heat\"/> does");
     return section;
   }();
   simulation::ComponentKind kind =

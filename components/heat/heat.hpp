@@ -18,20 +18,22 @@ inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in al
 
 /// The `Heat` section.
 struct Settings {
-  input::Expression conductivity{1.0};  ///< k, W/(m K)
-  double density = 1;                   ///< rho, kg/m³
-  double specificHeat = 1;              ///< c, J/(kg K)
+  input::Expression conductivity{1.0};  ///< conductivity k [W/(m K)]
+  double density = 1;                   ///< density rho [kg/m³]
+  double specificHeat = 1;              ///< specific heat c [J/(kg K)]
   double cfl = 0.9;                     ///< fraction of the largest stable time step
-  input::Expression temperature{0.0};   ///< at the start, K
-  double refinementTolerance = 0;       ///< interpolation error between cells above which they are refined, K; 0: never
+  input::Expression temperature{0.0};   ///< initial temperature [K]
+  /// Error of linear interpolation between cells above which the cells are refined [K]; 0: never.
+  double refinementTolerance = 0;
 
-  double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
+  double capacity() const { return density * specificHeat; }  ///< rho c [J/(m³ K)]
 };
 
 /// Heat conduction, rho c dT/dt = div(k grad T), explicit in time, centred in space, in D dimensions.
 ///
-/// At a face with `Temperature` Dirichlet the value [K] is kept, with Neumann the outward derivative [K/m]; any other
-/// face is insulated. The smallest complete component: copy it with tools/new_component.
+/// A face with a Dirichlet condition for `Temperature` has the given value [K], one with a Neumann condition the given
+/// outward derivative [K/m]; any other face is insulated. This is the smallest complete component: copy it with
+/// tools/new_component.
 template <int D>
 class Heat : public Component {
  public:
@@ -48,16 +50,16 @@ class Heat : public Component {
   Settings settings_;
 };
 
-/// T at the centre of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
-/// than 0.
+/// Sets T at the centre of each cell from the scene's formula. Throws InputError if it is not finite, or if k is not
+/// greater than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
   numerics::CheckedFormula{settings.temperature, "Heat/temperature", "K"}.fill<D>(patch, temperature);
   numerics::CheckedFormula{settings.conductivity, "Heat/thermal_conductivity", "W/(m K)"}.requirePositive<D>(patch);
 }
 
-/// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), which for a uniform k is von Neumann's limit: no cell
-/// overshoots its neighbours.
+/// Computes dt = cfl rho c / max(sum over the cell's faces of k / h_d²). For a uniform k, this is von Neumann's limit:
+/// no cell overshoots its neighbours.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt) {
   const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature);
@@ -66,8 +68,8 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum
   });
 }
 
-/// One explicit step; the kept fluxes are those of T, K m/s. T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2}
-/// (T_{i+1} - T_i)) / (rho c h_d²), k at faces as in Diffusion.
+/// Performs one explicit step: T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c
+/// h_d²), where k at faces is that of Diffusion. The stored fluxes are those of T [K m/s].
 template <int D>
 void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,
              CellView<double> newTemperature, RimFlux<double> flux = {}) {
@@ -80,9 +82,10 @@ void conduct(const Patch& patch, const Settings& settings, CellView<const double
   });
 }
 
-/// Marks cells at which the error of linear interpolation between cells exceeds `tolerance` [K]: |T_{i-1} - 2 T_i +
-/// T_{i+1}| / 8 along the worst axis, which is h² |T''| / 8. It is four times as much on cells twice as wide, so that
-/// those with more than a quarter stay. At a side of the grid the inner neighbour decides.
+/// Marks cells in which the error of linear interpolation between cells exceeds `tolerance` [K]. The error is |T_{i-1}
+/// - 2 T_i + T_{i+1}| / 8 along the worst axis, that is, h² |T''| / 8. On cells twice as wide, it is four times as
+/// large; therefore cells with more than a quarter of the tolerance are kept. At a side of the grid, the inner
+/// neighbour takes the place of the missing one.
 template <int D>
 void estimateError(const Patch& patch, double tolerance, CellView<const double> temperature, Marks marks) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -99,14 +102,14 @@ void estimateError(const Patch& patch, double tolerance, CellView<const double> 
   });
 }
 
-/// Heat in the patch's cells [J].
+/// Computes the heat in the patch's cells [J].
 template <int D>
 void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy) {
   const double capacity = settings.capacity() * patch.level().cellVolume();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { energy.add(capacity * temperature[cell]); });
 }
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::heat

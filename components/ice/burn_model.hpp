@@ -10,47 +10,47 @@
 
 namespace tushar::ice {
 
-/// The conditions under which a surface burns.
+/// The conditions at a surface that determine how it burns.
 struct AtSurface {
-  double pressure = 0;         ///< of the gas at the surface, Pa
-  double bodyTemperature = 0;  ///< of the body below its surface, K
-  double bodyDensity = 0;      ///< kg/m³
+  double pressure = 0;         ///< pressure of the gas at the surface [Pa]
+  double bodyTemperature = 0;  ///< temperature of the body below its surface [K]
+  double bodyDensity = 0;      ///< density of the body [kg/m³]
 };
 
-/// A rate that depends only on the pressure, as in Uintah's Simple_Burn.
+/// A burn rate that depends only on the pressure, as in Uintah's Simple_Burn.
 struct SimpleBurn {
-  double coefficient = 0;        ///< kg/(m² s) at the reference pressure
-  double referencePressure = 0;  ///< Pa
+  double coefficient = 0;        ///< burn rate at the reference pressure [kg/(m² s)]
+  double referencePressure = 0;  ///< reference pressure [Pa]
 
-  /// kg/(m² s)
+  /// The burn rate [kg/(m² s)].
   double rate(const AtSurface& at) const {
     constexpr double exponent = 0.778;  // of Uintah's model, for the explosive PBX 9501
     return coefficient * std::pow(at.pressure / referencePressure, exponent);
   }
 };
 
-/// The steady deflagration of a solid, with a reaction in the solid and one in the gas close to it: its surface
-/// temperature T_s and its rate m satisfy
+/// The steady deflagration of a solid, with one reaction in the solid and another one in the gas close to it. The
+/// surface temperature T_s and the burn rate m satisfy
 ///
 ///   m² = A R k_c rho T_s² exp(-E / (R T_s)) / (E c (T_s - T_0 - Q_c / (2 c)))
 ///   T_s = T_0 + Q_c / c + Q_g / c / (1 + x m c / k_g),   x = 2 k_g / (c (sqrt(m² + 4 k_g B (W p)² / (c R²)) - m)).
 ///
 /// Source: M. J. Ward, S. F. Son and M. Q. Brewster, Combust. Flame 114 (1998) 556.
 struct SteadyBurn {
-  double gasConstant = 0;        ///< R, J/(mol K)
-  double solidFactor = 0;        ///< A, 1/s
-  double activationEnergy = 0;   ///< E, J/mol
-  double gasFactor = 0;          ///< B, m³/(kg s K²)
-  double solidHeat = 0;          ///< Q_c, J/kg
-  double gasHeat = 0;            ///< Q_g, J/kg
-  double gasConductivity = 0;    ///< k_g, W/(m K)
-  double solidConductivity = 0;  ///< k_c, W/(m K)
-  double specificHeat = 0;       ///< c of both, J/(kg K)
-  double molarMass = 0;          ///< W, kg/mol
+  double gasConstant = 0;        ///< gas constant R [J/(mol K)]
+  double solidFactor = 0;        ///< solid factor A [1/s]
+  double activationEnergy = 0;   ///< activation energy E [J/mol]
+  double gasFactor = 0;          ///< gas factor B [m³/(kg s K²)]
+  double solidHeat = 0;          ///< solid heat Q_c [J/kg]
+  double gasHeat = 0;            ///< gas heat Q_g [J/kg]
+  double gasConductivity = 0;    ///< gas conductivity k_g [W/(m K)]
+  double solidConductivity = 0;  ///< solid conductivity k_c [W/(m K)]
+  double specificHeat = 0;       ///< c of solid and gas [J/(kg K)]
+  double molarMass = 0;          ///< molar mass W [kg/mol]
 
-  /// kg/(m² s)
+  /// The burn rate [kg/(m² s)].
   double rate(const AtSurface& at) const { return rateAt(surfaceTemperature(at), at); }
-  /// T_s, K, by bisection to round-off.
+  /// Surface temperature T_s [K], by bisection to round-off.
   double surfaceTemperature(const AtSurface& at) const {
     const double rise = gasHeat / specificHeat;
     double least = at.bodyTemperature + solidHeat / specificHeat, most = least + rise;
@@ -70,7 +70,7 @@ struct SteadyBurn {
   }
 
  private:
-  /// m of a surface of that temperature, kg/(m² s).
+  /// Burn rate m [kg/(m² s)] of a surface with the temperature `surface` [K].
   double rateAt(double surface, const AtSurface& at) const {
     const double reaction = solidFactor * gasConstant * solidConductivity * at.bodyDensity * surface * surface *
                             std::exp(-activationEnergy / (gasConstant * surface));
@@ -79,27 +79,28 @@ struct SteadyBurn {
   }
 };
 
-/// `<Model type="Test">` of a body: a fraction of the remaining body per time is converted into gas, everywhere.
+/// `<Model type="Test">` of a body: a fraction of the remaining body per unit time is converted into gas, everywhere.
 struct Decay {
-  double perTime = 0;    ///< 1/s
-  double startTime = 0;  ///< s
+  double perTime = 0;    ///< fraction per unit time [1/s]
+  double startTime = 0;  ///< start time [s]
 };
 
-/// The time that a flame takes to cross a cell of explosive: a flame spreads along a surface with the speed F_b (p /
-/// p_0)^F_c, and into the body faster, by the factor 1 / I_c. Source: S. F. Son, B. W. Asay, E. M. Whitney & H. L.
+/// The time that a flame takes to cross a cell of explosive. Along a surface, a flame spreads with the speed F_b (p /
+/// p_0)^F_c; into the body, it is faster by the factor 1 / I_c. Source: S. F. Son, B. W. Asay, E. M. Whitney & H. L.
 /// Berghout, Proc. Combust. Inst. 31 (2007) 2063; the dependence on the angle is that of Uintah's DDT1.
 struct Induction {
-  double inwards = 1;   ///< I_c, 1
-  double pressure = 0;  ///< p_0, Pa
-  double speed = 0;     ///< F_b, m/s
-  double exponent = 0;  ///< F_c, 1
+  double inwards = 1;   ///< I_c [1]
+  double pressure = 0;  ///< pressure p_0 [Pa]
+  double speed = 0;     ///< speed F_b [m/s]
+  double exponent = 0;  ///< F_c [1]
 
-  /// Of the time along the surface, if the flame comes at an angle with this cosine to the normal: from I_c to 1.
+  /// The time of a flame divided by its time along a surface, from I_c to 1. `cosine` belongs to the angle between the
+  /// path of the flame and the normal of the surface.
   double part(double cosine) const {
     const double along = 1 - 2 * cosine * cosine;  // sin(2 theta - pi/2)
     return 0.5 * (1 + inwards) + 0.5 * (1 - inwards) * along;
   }
-  /// The time along a surface, over a width [m] at a pressure [Pa], s.
+  /// The time [s] that a flame takes to cover a width [m] along a surface at the pressure `at` [Pa].
   double time(double width, double at) const { return width / (speed * std::pow(at / pressure, exponent)); }
 };
 
@@ -107,34 +108,35 @@ struct Induction {
 /// A. Wight, Combust. Flame 159 (2012) 2491.
 struct Ddt {
   SteadyBurn surface;
-  double detonationPressure = 0;  ///< above it the body detonates, Pa
+  double detonationPressure = 0;  ///< pressure above which the body detonates [Pa]
   bool burnsCracks = false;
   std::optional<Induction> induction;
 
   double rate(const AtSurface& at) const { return surface.rate(at); }
-  /// Whether gas of a pressure, Pa, burns in cracks of a radius, m. Source: H. L. Berghout, S. F. Son, C. B. Skidmore,
-  /// D. J. Idar & B. W. Asay, Thermochim. Acta 384 (2002) 261, after Belyaev: p^2.84 w^2 > 8e8.
+  /// Whether gas at a pressure [Pa] burns in cracks with a radius [m]: p^2.84 w^2 > 8e8. Source: H. L. Berghout, S. F.
+  /// Son, C. B. Skidmore, D. J. Idar & B. W. Asay, Thermochim. Acta 384 (2002) 261, after Belyaev.
   static bool enterCracks(double pressure, double radius) {
     return pressure > 0 && std::pow(pressure, 2.84) * radius * radius > 8e8;
   }
-  /// The surface of cracks over the volume of the body, 1/m, as in Uintah: that of plates of 2 mm.
+  /// The area of the surface of cracks per volume of the body [1/m], as in Uintah: that of plates with a thickness of 2
+  /// mm.
   static constexpr double surfaceOfCracks = 500;
 };
 
-/// A body that is converted into a gas.
+/// A body that is converted into a gas, and the law by which it burns.
 struct BurnModel {
   Location where;                  ///< in the scene
-  std::string from, to;            ///< the materials
-  double ignitionTemperature = 0;  ///< K
-  double leastPressure = 0;        ///< below it, nothing burns, Pa
-  double heat = 0;                 ///< of the reaction, J/kg
+  std::string from, to;            ///< names of the two materials
+  double ignitionTemperature = 0;  ///< ignition temperature [K]
+  double leastPressure = 0;        ///< pressure below which nothing burns [Pa]
+  double heat = 0;                 ///< heat of the reaction [J/kg]
   std::variant<SimpleBurn, SteadyBurn, Decay, Ddt> law;
 
-  /// Deflagration in cracks, too; null for other models.
+  /// The model of deflagration in cracks; null for other models.
   const Ddt* ddt() const { return std::get_if<Ddt>(&law); }
-  /// Whether surfaces burn, rather than the whole body.
+  /// Whether only surfaces burn, rather than the whole body.
   bool burnsAtSurface() const { return !std::holds_alternative<Decay>(law); }
-  /// Rate of a burning surface, kg/(m² s).
+  /// Burn rate of a surface [kg/(m² s)].
   double rate(const AtSurface& at) const {
     return std::visit(
         [&](const auto& model) {
@@ -147,7 +149,7 @@ struct BurnModel {
   }
 };
 
-/// `<Simple_Burn>`.
+/// The tag `<Simple_Burn>`.
 struct SimpleBurnSection {
   Location where;
   bool isActive = true;
@@ -160,7 +162,7 @@ struct SimpleBurnSection {
 };
 const input::Schema<SimpleBurnSection>& simpleBurnSchema();
 
-/// `<Steady_Burn>`.
+/// The tag `<Steady_Burn>`.
 struct SteadyBurnSection : SteadyBurn {
   Location where;
   std::string from, to;
@@ -172,7 +174,7 @@ struct SteadyBurnSection : SteadyBurn {
 };
 const input::Schema<SteadyBurnSection>& steadyBurnSchema();
 
-/// `<DDT1>`.
+/// The tag `<DDT1>`.
 struct DdtSection : SteadyBurn, Induction {
   Location where;
   std::string from, to, burnt;

@@ -17,15 +17,15 @@ void addMaterials(Schema<Section>& tags) {
       .required("toMaterial", &Section::to, "1", "name of the gas into which it is converted");
 }
 
-/// The numbers of a steady deflagration; `pressure` is the tag of the threshold.
+/// Declares the parameters of a steady deflagration; `pressure` is the name of the tag for the threshold pressure.
 template <class Section>
 void addSteadyBurn(Schema<Section>& tags, const char* pressure) {
   const auto of = [](double SteadyBurn::*number) -> double Section::* { return number; };
   tags.required("IdealGasConst", of(&SteadyBurn::gasConstant), "J/(mol K)", "R", input::positive())
       .required("PreExpCondPh", of(&SteadyBurn::solidFactor), "1/s", "factor of the reaction in the solid",
                 input::positive())
-      .required("ActEnergyCondPh", of(&SteadyBurn::activationEnergy), "J/mol", "its activation energy",
-                input::positive())
+      .required("ActEnergyCondPh", of(&SteadyBurn::activationEnergy), "J/mol",
+                "activation energy of the reaction in the solid", input::positive())
       .required("PreExpGasPh", of(&SteadyBurn::gasFactor), "m^3/(kg s K^2)", "factor of the reaction in the gas",
                 input::positive())
       .required("CondPhaseHeat", of(&SteadyBurn::solidHeat), "J/kg", "heat of the reaction in the solid",
@@ -36,13 +36,14 @@ void addSteadyBurn(Schema<Section>& tags, const char* pressure) {
                 input::positive())
       .required("HeatConductCondPh", of(&SteadyBurn::solidConductivity), "W/(m K)", "thermal conductivity of the solid",
                 input::positive())
-      .required("SpecificHeatBoth", of(&SteadyBurn::specificHeat), "J/(kg K)", "of solid and gas, for the rate",
-                input::positive())
+      .required("SpecificHeatBoth", of(&SteadyBurn::specificHeat), "J/(kg K)",
+                "specific heat of solid and gas, used in the rate", input::positive())
       .required("MoleWeightGasPh", of(&SteadyBurn::molarMass), "kg/mol", "molar mass of the gas", input::positive())
-      .required(pressure, &Section::thresholdPressure, "Pa",
-                "a surface burns where the pressure of the gas is higher than this", input::nonNegative())
+      .required(pressure, &Section::thresholdPressure, "Pa", "pressure of the gas above which a surface burns",
+                input::nonNegative())
       .required("IgnitionTemp", &Section::ignitionTemperature, "K",
-                "and where the gas or a body at it is hotter than this", input::nonNegative())
+                "temperature of the gas, or of a body at the surface, above which the surface burns",
+                input::nonNegative())
       .ignored("BoundaryParticles", "surfaces are where the gas has walls");
 }
 
@@ -55,9 +56,10 @@ const Schema<SimpleBurnSection>& simpleBurnSchema() {
     addMaterials(tags);
     tags.value("Active", &SimpleBurnSection::isActive, true, "1", "whether the body burns")
         .required("ThresholdTemp", &SimpleBurnSection::thresholdTemperature, "K",
-                  "a surface burns where the gas or a body at it is hotter than this", input::nonNegative())
+                  "temperature of the gas, or of a body at the surface, above which the surface burns",
+                  input::nonNegative())
         .required("ThresholdPressure", &SimpleBurnSection::thresholdPressure, "Pa",
-                  "and where the pressure of the gas is higher than this", input::nonNegative())
+                  "pressure of the gas above which a surface burns", input::nonNegative())
         .required("Enthalpy", &SimpleBurnSection::enthalpy, "J/kg", "heat of the reaction")
         .required("BurnCoeff", &SimpleBurnSection::coefficient, "kg/(m^2 s)", "rate at <refPressure>",
                   input::nonNegative())
@@ -85,8 +87,8 @@ void addInduction(Schema<DdtSection>& tags) {
   const auto of = [](double Induction::*number) -> double DdtSection::* { return number; };
   tags.value("useInductionTime", &DdtSection::waits, false, "1",
              "a cell burns only after the time that a flame takes to cross it")
-      .value("IgnitionConst", of(&Induction::inwards), 1, "1", "that time into the body, over that along a surface",
-             input::nonNegative())
+      .value("IgnitionConst", of(&Induction::inwards), 1, "1",
+             "time that a flame takes into the body, divided by its time along a surface", input::nonNegative())
       .value("PressureShift", of(&Induction::pressure), 1, "Pa", "p_0 in F_b (p / p_0)^F_c, the speed along a surface",
              input::positive())
       .value("PreexpoConst", of(&Induction::speed), 1, "m/s", "F_b", input::positive())
@@ -114,7 +116,7 @@ const Schema<DdtSection>& ddtSchema() {
     for (const char* tag : {"G", "b", "E0"}) tags.ignored(tag, "belongs to the detonation, which ends the run");
     addInduction(tags);
     tags.value("useCrackModel", &DdtSection::burnsCracks, false, "1",
-               "gas burns in cracks that its pressure lets it enter: p^2.84 p.crackRad^2 > 8e8");
+               "gas burns in cracks that it can enter at its pressure: p^2.84 p.crackRad^2 > 8e8");
     for (const char* tag : {"Gcrack", "nCrack", "CrackVolThreshold", "rho0"})
       tags.ignored(tag, "Uintah does not use it either");
     input::noteTag(tags, "adjust_IO_intervals", "outputs and checkpoints keep their intervals");

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char *wavesTag = "LODI", *sineTag = "SINE_BC", *sineVar = "Sine", *slipVar = "FreeSlipWall";
 
-/// `LODI`: a side that lets waves out.
+/// The tag `LODI`: a side that lets waves out.
 struct WavesSection {
   double farPressure = 0, sigma = 0;
 };
@@ -38,7 +38,7 @@ const Schema<WavesSection>& wavesSchema() {
   return schema;
 }
 
-/// `SINE_BC`: an oscillation at a side.
+/// The tag `SINE_BC`: an oscillation at a side.
 struct SineSection {
   double omega = 0, amplitude = 0, pressure = 0;
   Vec3 velocity = Vec3::Zero();
@@ -55,7 +55,7 @@ const Schema<SineSection>& sineSchema() {
   return schema;
 }
 
-/// Reads the section of BoundaryConditions that a condition needs.
+/// Reads the section of <BoundaryConditions> that a condition needs.
 template <class S>
 std::optional<S> sectionOf(const Schema<S>& schema, const Element& sides, const Element& condition,
                            Diagnostics& diagnostics) {
@@ -72,7 +72,7 @@ std::optional<S> sectionOf(const Schema<S>& schema, const Element& sides, const 
 std::vector<BoundaryCondition> readWaves(const std::string& label, const Element& sides, const Element& condition,
                                          Diagnostics& diagnostics) {
   const auto section = sectionOf(wavesSchema(), sides, condition, diagnostics);
-  // Whatever else has LODI goes with the waves.
+  // Variables with LODI other than the pressure need no condition: they follow the waves.
   if (!section || label != euler::boundary::pressure.name) return {};
   BoundaryCondition waves{euler::boundary::waves, BoundaryKind::dirichlet};
   waves.value = Vec3(section->farPressure, section->sigma, 0);

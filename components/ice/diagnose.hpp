@@ -5,7 +5,7 @@
 
 namespace tushar::ice {
 
-/// Internal energy in the patch [J].
+/// Computes the internal energy in the patch [J].
 template <int D>
 void sumInternalEnergy(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
                        CellView<const double> totalEnergy, Sum& energy) {
@@ -16,7 +16,7 @@ void sumInternalEnergy(const Patch& patch, CellView<const double> density, CellV
   });
 }
 
-/// T [K]: e / c_v of an ideal gas.
+/// Computes T [K]: e / c_v for an ideal gas.
 template <int D>
 void computeTemperature(const Patch& patch, const euler::Gas& gas, CellView<const double> density,
                         CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,

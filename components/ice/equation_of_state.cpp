@@ -77,8 +77,8 @@ const Schema<GruneisenTags>& gruneisenSchema() {
   static const Schema<GruneisenTags> schema =
       Schema<GruneisenTags>("EOS", "p = P0 + A (rho / rho0 - 1) + B (T - T0).")
           .foreignAttribute("type", "Gruneisen")
-          .required("A", &GruneisenTags::a, "Pa", "rise with rho / rho0", input::positive())
-          .required("B", &GruneisenTags::b, "Pa/K", "rise with temperature", input::positive())
+          .required("A", &GruneisenTags::a, "Pa", "A, the slope of the pressure with rho / rho0", input::positive())
+          .required("B", &GruneisenTags::b, "Pa/K", "B, the slope of the pressure with temperature", input::positive())
           .required("rho0", &GruneisenTags::density, "kg/m^3", "density at P0 and T0", input::positive())
           .required("P0", &GruneisenTags::pressure, "Pa", "pressure at rho0 and T0")
           .required("T0", &GruneisenTags::temperature, "K", "temperature at rho0 and P0", input::positive());

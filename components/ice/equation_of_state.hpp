@@ -14,23 +14,23 @@ struct EquationOfState {
   enum class Kind { ideal, stiffened, jwl, jwlc, murnaghan, gruneisen, water, tst };
 
   Kind kind = Kind::ideal;
-  double pInfinity = 0;        ///< Pa
-  euler::ColdCurve cold = {};  ///< for JWL, JWLC, Murnaghan and Gruneisen
-  double perKelvin = 0;        ///< for Gruneisen: B, Pa/K
+  double pInfinity = 0;        ///< p_inf [Pa]
+  euler::ColdCurve cold = {};  ///< cold curve of JWL, JWLC, Murnaghan and Gruneisen
+  double perKelvin = 0;        ///< parameter B of Gruneisen [Pa/K]
   euler::Water::Numbers water = {};
   euler::RealGas::Numbers real = {};  ///< for TST, except c_v
   double gammaOfThinGas = 0;          ///< for TST
 
-  /// Whether <gamma> counts.
+  /// Whether <gamma> has an effect.
   bool hasGamma() const { return kind == Kind::ideal || kind == Kind::stiffened; }
   /// The law of a gas with a given specific heat [J/(kg K)]; null for a stiffened gas.
   std::shared_ptr<const euler::Gas::Law> law(double specificHeat) const;
 };
 
-/// Reads the `<EOS>` of a `<material>`. Every problem goes to the diagnostics.
+/// Reads the `<EOS>` of a `<material>`. Reports every problem to the diagnostics.
 EquationOfState readEquationOfState(const input::Element& material, input::Diagnostics& diagnostics);
 
-/// The types of equations of state, with Uintah's names except for stiffened_gas.
+/// The types of equations of state; all but stiffened_gas have Uintah's names.
 const std::vector<std::string>& equationsOfState();
 
 }  // namespace tushar::ice

@@ -15,12 +15,13 @@ namespace tushar::ice {
 /// Gravity and diffusion of a gas, and the settings of implicit steps.
 struct IceSettings {
   euler::Diffusion diffusion;
-  Vec3 gravity = Vec3::Zero();  ///< m/s²
+  Vec3 gravity = Vec3::Zero();  ///< gravity [m/s²]
   double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: no limit
   solvers::LinearSettings solver = {};
 };
 
-/// Tells whether a cell has no slopes because of a body in it or next to it; empty if all cells have slopes.
+/// A function that returns whether a cell has no slopes, because a body is in it or next to it. If it is empty, all
+/// cells have slopes.
 template <int D>
 using IsFlat = std::function<bool(const Index<D>&)>;
 
@@ -28,8 +29,9 @@ using IsFlat = std::function<bool(const Index<D>&)>;
 template <int K>
 using LawsOf = std::conditional_t<K == 1, euler::Gas, euler::Mixture<K>>;
 
-/// After separate changes of the numbers of several gases: scales masses and shares so that the shares add up to 1, and
-/// sets the density to the sum of the masses. Returns whether each mass and each share is at least 0.
+/// Makes a state of several gases consistent after its components have been changed separately: scales masses and
+/// shares so that the shares add up to 1, and sets the density to the sum of the masses. Returns whether each mass and
+/// each share is at least 0.
 template <int D, int K>
 bool closeState([[maybe_unused]] euler::State<D, K>& w) {
   if constexpr (K == 1) {
@@ -48,12 +50,12 @@ bool closeState([[maybe_unused]] euler::State<D, K>& w) {
   }
 }
 
-/// One gas, or K gases, before a step, also beyond sides of the grid, and the values prescribed at faces in these
-/// sides. A face is named by an axis and the cell above it.
+/// The state of one gas, or of K gases, before a step, including cells beyond the sides of the grid, and the values
+/// prescribed at faces on these sides. A face is identified by an axis and by the cell above it.
 template <int D, int K = 1>
 class GasBefore {
  public:
-  /// Room for boxes of up to `cells` cells; the laws and the rules at the sides outlive this.
+  /// Allocates space for boxes of up to `cells` cells; the laws and the rules at the sides must outlive this object.
   GasBefore(const Level& level, const LawsOf<K>& gas, const Vec3& gravity, const euler::GhostRules<D>& rules,
             std::size_t cells, IsFlat<D> isFlat = {})
       : level_(level),
@@ -76,31 +78,32 @@ class GasBefore {
   const Level& level() const { return level_; }
   const LawsOf<K>& gas() const { return gas_; }
   const Vec<D>& gravity() const { return gravity_; }
-  /// rho, v and p; of several gases also their masses and shares.
+  /// Rho, v and p; for several gases also their masses and shares.
   const euler::Rows<D, K>& old() const { return old_; }
-  /// c [m/s] of a cell.
+  /// Speed of sound in a cell [m/s].
   double soundSpeed(const Index<D>& cell) const { return soundSpeed(cell, old_.number(cell, euler::kDensity)); }
-  /// c [m/s] of a cell, if its density [kg/m³] were this one.
+  /// Speed of sound [m/s] that a cell would have with the given density [kg/m³].
   double soundSpeed(const Index<D>& cell, double density) const {
     const double pressure = old_.number(cell, euler::kPressure<D>);
     return std::sqrt(euler::lawIn<D>(gas_, old_.state(cell)).soundSpeedSquared(density, pressure));
   }
-  /// Fills `rows`, also beyond sides, with the old state but another pressure in the cells of the grid.
+  /// Fills `rows` with the old state, but with the given pressure in the cells of the grid; cells beyond sides follow
+  /// from it.
   void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D, K>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
   }
-  /// The same with the old pressure and its change.
+  /// Fills `rows` like fillWithPressure, given the change of the old pressure.
   void fillWithChange(const CellView<const double>& change, euler::Rows<D, K>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double old) { return old + change[cell]; });
   }
-  /// Whether a cell, or a cell of which it is an image, is on the grid.
+  /// Whether a cell is on the grid, or is the periodic image of such a cell.
   bool isOnGrid(const Index<D>& cell) const {
     for (int d = 0; d < D; ++d)
       if (!level_.isPeriodic(d) && (cell[d] < 0 || cell[d] >= level_.cells().upper[d])) return false;
     return true;
   }
   bool isFlat(const Index<D>& cell) const { return is_flat_ && is_flat_(cell); }
-  /// The limited difference of a number of the state across a cell.
+  /// The limited difference across a cell of one component of the state.
   double slope(const Index<D>& cell, int axis, std::size_t number) const {
     if (isFlat(cell)) return 0;
     const Index<D> step = Index<D>::unit(axis);
@@ -108,28 +111,29 @@ class GasBefore {
     return VanLeer::slope(middle - old_.number(cell - step, number), old_.number(cell + step, number) - middle);
   }
 
-  /// The normal velocity at a face if it does not depend on the pressure, m/s.
+  /// The normal velocity at a face [m/s], if it does not depend on the pressure.
   std::optional<double> givenVelocity(const Index<D>& face, int axis) const {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     if (rule && rule->mirrored) return 0.0;
     if (rule && rule->factor[euler::kVelocity(axis)] == 0) return rule->value[euler::kVelocity(axis)];
     return {};
   }
-  /// Whether a face lies in a side without a pressure.
+  /// Whether a face lies on a side at which no pressure is given.
   bool isFree(const Index<D>& face, int axis) const {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule && rule->factor[euler::kPressure<D>] != 0;
   }
-  /// Whether a face lies in a side through which gas leaves: without a pressure, and without a velocity across it.
+  /// Whether a face lies on a side through which gas leaves: neither a pressure nor a velocity across the side is
+  /// given.
   bool isOpen(const Index<D>& face, int axis) const { return isFree(face, axis) && !givenVelocity(face, axis); }
-  /// rho_f, kg/m³.
+  /// Density at a face, rho_f [kg/m³].
   double density(const Index<D>& face, int axis) const { return mean(old_, face, axis, euler::kDensity); }
-  /// The mean of p + p_inf on both sides, Pa.
+  /// The mean of p + p_inf on both sides of a face [Pa].
   double stiffPressure(const Index<D>& face, int axis) const {
     return mean(old_, face, axis, euler::kPressure<D>) + gas_.pInfinity;
   }
-  /// dt / (rho_f h), m/(s Pa): the decrease of the normal velocity in a time dt [s] per Pa of pressure rise across the
-  /// face; 0 where pressure does not act.
+  /// dt / (rho_f h) [m/(s Pa)]: the decrease of the normal velocity in a time dt [s], per Pa by which the pressure
+  /// rises across the face; 0 where pressure does not act.
   double mobility(const Index<D>& face, int axis, double dt) const {
     if (isFree(face, axis) || givenVelocity(face, axis)) return 0;
     return dt * level_.inverseSpacing(axis) / density(face, axis);
@@ -155,7 +159,7 @@ class GasBefore {
     });
     euler::fillBeyondGrid<D>(level_, rules_, rows);
   }
-  /// The rule at a face that lies in a side of the grid: that of the cell beyond.
+  /// The rule at a face on a side of the grid, that is, for the cell beyond it; none at other faces.
   std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& face, int axis) const {
     const bool isUpper = face[axis] == level_.cells().upper[axis];
     if (level_.isPeriodic(axis) || (face[axis] != 0 && !isUpper)) return {};
@@ -174,25 +178,25 @@ class GasBefore {
 ///
 ///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
 ///
-/// rho_f the mean density. Walls, and sides with a Velocity, have that velocity whatever the pressure. Other sides
-/// without a Pressure are open: no wave comes in through them. With n outwards, p_o = p + rho g_n h / 2 in the middle
-/// of the side, and the cell c beside it,
+/// where rho_f is the mean density. At walls, and at sides with a Velocity, u_f is the velocity given there, whatever
+/// the pressure. Other sides without a Pressure are open: no wave enters through them. With the outward normal n, the
+/// pressure p_o = p + rho g_n h / 2 at the centre of the side, and the adjacent cell c,
 ///
 ///   u_n = v_n,c + (p'_f - p_o + r) / (rho_f c) = u*_n,c - dt / (rho_f h / 2) (p'_f - p'_c),
 ///
-/// r what the incoming wave loses where the side relaxes to a pressure far away; else 0.
+/// where r is the loss of the incoming wave if the side relaxes to a far-field pressure, and 0 otherwise.
 ///
-/// All that p' counts by is its change from p, so that where the gas is at rest no rounding of p pushes it.
-/// Source: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
-/// J. Comput. Phys. 228 (2009) 4146; K. W. Thompson, J. Comput. Phys. 68 (1987) 1, for open sides.
+/// Only the change p' - p is used, so that round-off of p does not move gas at rest.
+/// Sources: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
+/// J. Comput. Phys. 228 (2009) 4146; for open sides, K. W. Thompson, J. Comput. Phys. 68 (1987) 1.
 template <int D, int K = 1>
 class FaceFlow : public GasBefore<D, K> {
  public:
-  /// Space for boxes no larger than `largest`.
+  /// Allocates space for boxes no larger than `largest`.
   FaceFlow(const Level& level, const euler::Settings& method, const IceSettings& settings,
            const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {}) requires(K == 1)
       : FaceFlow(level, method.gas, method.method, settings, rules, largest, dt, std::move(isFlat)) {}
-  /// The same for these laws, which outlive this.
+  /// Like the constructor above, for the given laws, which must outlive this object.
   FaceFlow(const Level& level, const LawsOf<K>& gas, const euler::Method& method, const IceSettings& settings,
            const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {})
       : GasBefore<D, K>(level, gas, settings.gravity, rules, largest.grown(2, D).size(), std::move(isFlat)),
@@ -200,7 +204,7 @@ class FaceFlow : public GasBefore<D, K> {
         hasSlopes_(method.reconstruction != euler::Reconstruction::firstOrder),
         ahead_(this->old()) {}
 
-  /// Loads the faces of the cells in `box`, from the state in two more layers.
+  /// Loads the faces of the cells in `box`; it needs the state in two more layers of cells.
   void hold(const Box& box, const euler::ViewsOf<D, K, const double>& before) {
     GasBefore<D, K>::hold(box.grown(2, D), before);
     ahead_ = this->old();
@@ -222,14 +226,14 @@ class FaceFlow : public GasBefore<D, K> {
     return this->mean(ahead_, face, axis, euler::kVelocity(axis)) + dt_ * this->gravity()[axis] -
            this->mobility(face, axis, dt_) * rise;
   }
-  /// The decrease of u_f per increase of pressure in the cell above the face, and its increase per increase in the cell
-  /// below, m/(s Pa); beyond a side the pressure does not change.
+  /// The decrease of u_f per increase of the pressure in the cell above the face [m/(s Pa)]. It equals the increase of
+  /// u_f per increase of the pressure in the cell below. The pressure beyond a side does not change.
   double loss(const Index<D>& face, int axis) const {
     if (!this->isOpen(face, axis)) return this->mobility(face, axis, dt_);
     const OpenSide side = openSide(face, axis);
     return side.lightness * side.push / (side.push + side.lightness);
   }
-  /// p' [Pa] in an open side if the pressure of the adjacent cell changes by `change` [Pa].
+  /// p' [Pa] on an open side if the pressure of the adjacent cell changes by `change` [Pa].
   double openPressure(const Index<D>& face, int axis, double change) const {
     const OpenSide side = openSide(face, axis);
     return side.pressure +
@@ -240,12 +244,12 @@ class FaceFlow : public GasBefore<D, K> {
   /// An open side and the adjacent cell.
   struct OpenSide {
     double normal;     ///< 1 or -1: the outward direction
-    double speed;      ///< outward velocity before the step, m/s
-    double carried;    ///< its change by (v . grad) v in the step, m/s
-    double pressure;   ///< p_o, Pa
-    double lightness;  ///< 1 / (rho c), m/(s Pa)
-    double push;       ///< dt / (rho h / 2), m/(s Pa)
-    double relaxed;    ///< loss of the incoming wave by relaxation, Pa
+    double speed;      ///< outward velocity before the step [m/s]
+    double carried;    ///< change of this velocity by (v . grad) v in the step [m/s]
+    double pressure;   ///< pressure p_o [Pa]
+    double lightness;  ///< 1 / (rho c) [m/(s Pa)]
+    double push;       ///< dt / (rho h / 2) [m/(s Pa)]
+    double relaxed;    ///< change of the incoming wave due to relaxation [Pa]
   };
   OpenSide openSide(const Index<D>& face, int axis) const {
     const bool isLower = face[axis] == 0;

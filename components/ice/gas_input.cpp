@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* solverTag = "Solver";
 
-/// Reports an invalid condition of the gas: its value, and derivatives other than 0.
+/// Reports conditions of the gas that are not available: invalid values, and derivatives other than 0.
 void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const auto text = condition.child("value");
@@ -45,7 +45,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   limit(euler::boundary::temperature, "K");
 }
 
-/// Checks the conditions of the gas, which is material `gas` of the scene, and of the gases that follow it.
+/// Checks the conditions of the gas, which is material number `gas` of the scene, and of the gases that follow it.
 void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const int material = materialOf(condition);
@@ -62,7 +62,8 @@ void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagn
   }
 }
 
-/// Reports a condition that contradicts the others of its face: a wall that slips, or a side that lets waves out.
+/// Reports a condition that another one of its face excludes. `slips`: the face is a wall that slips; `relaxes`: it
+/// lets waves out.
 void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
@@ -96,7 +97,7 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
-/// Sections of implicit steps that have no effect in Tushar.
+/// Notes sections for implicit steps that have no effect here.
 void noteIdle(const Element& root, const IceSection& ice, bool isImplicit, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
     diagnostics.note(*solver, isImplicit ? "does nothing: the settings of the solve are in <ImplicitSolver>"
@@ -106,7 +107,8 @@ void noteIdle(const Element& root, const IceSection& ice, bool isImplicit, Diagn
                      "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
 }
 
-/// The smallest tolerance: Uintah's scenes require residuals down to 1e-22, which rounding does not allow.
+/// The smallest tolerance allowed: Uintah's scenes require residuals down to 1e-22, which rounding errors make
+/// impossible.
 constexpr double leastTolerance = 1e-12;
 
 ImplicitPressure implicitPressureOf(const IceSection& ice) {
@@ -123,7 +125,8 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
-/// Why a gas beside bodies takes explicit steps though the scene has an <ImplicitSolver>; empty if it does not.
+/// The reason why a gas beside bodies takes explicit steps although the scene has an <ImplicitSolver>; empty if there
+/// is no such reason.
 std::string whyExplicit(const std::vector<GasMaterial>& materials, const GasScene& scene) {
   if (!scene.burns.empty()) return "with a burning body";
   if (materials.size() > 1) return "with bodies in several gases";
@@ -131,7 +134,7 @@ std::string whyExplicit(const std::vector<GasMaterial>& materials, const GasScen
   return gas.law() ? "with bodies in a gas that is neither ideal nor stiffened" : "";
 }
 
-/// Takes the settings of implicit steps, or notes why steps are explicit.
+/// Reads the settings of implicit steps, or notes why steps are explicit.
 void takeImplicitSteps(const IceSection& ice, const std::vector<GasMaterial>& materials, const Element& root,
                        int solids, GasScene& scene, Diagnostics& diagnostics) {
   if (!isImplicit(ice)) return;
@@ -143,14 +146,14 @@ void takeImplicitSteps(const IceSection& ice, const std::vector<GasMaterial>& ma
                      fmt::format("does nothing: {}, steps are explicit, so the speed of sound limits them", why));
 }
 
-/// Refuses features of a gas that are not available with bodies.
+/// Reports features of a gas that are not available together with bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
   const char* sentence = "is not available with bodies: remove it, or keep only the gas";
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 
-/// Sorts the models of a scene. Exchanges of mass from a body to a gas are a way to burn.
+/// Distributes the models of a scene over its settings. Exchanges of mass from a body to a gas are treated as burning.
 void takeModels(ModelsSection& models, const Element& root, int solids, GasScene& scene, Diagnostics& diagnostics) {
   scene.scalars = std::move(models.scalars);
   scene.massExchanges = std::move(models.massExchanges);
@@ -171,7 +174,7 @@ void takeModels(ModelsSection& models, const Element& root, int solids, GasScene
                       "<SimulationComponent type=\"mpmice\"/>");
 }
 
-/// Half the size of the first Level's Box, m: the centre of Uintah's <counterflow>.
+/// Half the size of the Box of the first Level [m]: the centre of Uintah's <counterflow>.
 Vec3 middleOf(const Element& root) {
   const auto grid = root.child("Grid");
   const auto level = grid ? grid->child("Level") : std::nullopt;

@@ -17,12 +17,13 @@
 
 namespace tushar::ice {
 
-/// Values for each pair of materials, the upper triangle of their matrix row by row: Uintah's `exchange_coefficients`.
+/// Uintah's `exchange_coefficients`: values for each pair of materials, which are the upper triangle of a matrix, row
+/// by row.
 struct Exchange {
   Location where;                ///< in the scene
-  std::vector<double> momentum;  ///< kg/(m³ s)
-  std::vector<double> heat;      ///< W/(m³ K)
-  bool heatByMasses = false;     ///< HeatCoefficients::byMasses replaces these
+  std::vector<double> momentum;  ///< momentum exchange coefficients [kg/(m³ s)]
+  std::vector<double> heat;      ///< heat exchange coefficients [W/(m³ K)]
+  bool heatByMasses = false;     ///< whether the coefficients follow from HeatCoefficients::byMasses instead
 
   HeatCoefficients heatCoefficients() const { return {heatByMasses ? std::vector<double>() : heat, heatByMasses}; }
 };
@@ -31,8 +32,8 @@ struct Exchange {
 struct MassExchange {
   Location where;  ///< in the scene
   std::string from, to;
-  double rate = 0;       ///< fraction of it per time, 1/s
-  double startTime = 0;  ///< s
+  double rate = 0;       ///< converted fraction of the gas per unit time [1/s]
+  double startTime = 0;  ///< start time [s]
 };
 
 /// The settings of the implicit pressure solve.
@@ -42,51 +43,51 @@ struct ImplicitPressure {
   solvers::LinearSettings solver;
 };
 
-/// A gas as the sections of a scene for Uintah's ICE describe it.
+/// A gas as described by the sections of a scene for Uintah's ICE.
 struct GasScene {
-  Location where;                         ///< place of <CFD> in the scene
-  euler::Settings gas;                    ///< the method, the gas and its state at the start
-  double specificHeat = 0;                ///< c_v, J/(kg K)
-  double referencePressure = 0;           ///< Pa
-  Vec3 gravity = Vec3::Zero();            ///< m/s²
-  Vec3 push = Vec3::Zero();               ///< force per volume, which replaces a pressure gradient, N/m³
-  euler::VaryingDiffusion varying = {};   ///< the viscosity, if it is not the same everywhere
-  double viscosity = 0;                   ///< Pa s
-  double conductivity = 0;                ///< W/(m K)
+  Location where;                         ///< location of <CFD> in the scene
+  euler::Settings gas;                    ///< the method, and the gas with its initial state
+  double specificHeat = 0;                ///< specific heat c_v [J/(kg K)]
+  double referencePressure = 0;           ///< reference pressure [Pa]
+  Vec3 gravity = Vec3::Zero();            ///< gravity [m/s²]
+  Vec3 push = Vec3::Zero();               ///< force per volume, equivalent to a pressure gradient [N/m³]
+  euler::VaryingDiffusion varying = {};   ///< viscosity and conductivity, if they are not the same everywhere
+  double viscosity = 0;                   ///< viscosity [Pa s]
+  double conductivity = 0;                ///< conductivity [W/(m K)]
   std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell block the gas
-  std::optional<Exchange> exchange = {};  ///< exchange with other materials
+  std::optional<Exchange> exchange = {};  ///< momentum and heat exchange with other materials
   std::optional<ImplicitPressure> implicit = {};
   Heating heating = {};
   std::vector<ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
-  /// If there are several gases: each of them, with its initial state; the gas above is the first.
+  /// If there are several gases, each of them with its initial state; the first is also in `gas`.
   std::vector<euler::Settings> mixture = {};
-  std::vector<euler::Diffusion> diffusions = {};  ///< diffusion of each of several gases
-  std::vector<MassExchange> massExchanges = {};   ///< between them
-  std::vector<BurnModel> burns = {};              ///< of bodies
-  std::vector<ProgrammedBurn> programs = {};      ///< of gases that become others
-  std::optional<BinaryProperties> binary = {};    ///< where one gas of the scene is a mixture of two
+  std::vector<euler::Diffusion> diffusions = {};  ///< diffusion of each gas, if there are several
+  std::vector<MassExchange> massExchanges = {};   ///< mass exchanges between gases
+  std::vector<BurnModel> burns = {};              ///< burn models of bodies
+  std::vector<ProgrammedBurn> programs = {};      ///< programmed burns, by which one gas becomes another
+  std::optional<BinaryProperties> binary = {};    ///< set if the only gas of the scene is a mixture of two
 };
 
-/// Why implicit steps need one level.
+/// The reason why implicit steps need a grid of one level.
 inline constexpr const char* pressureOnOneLevel =
     "an <ImplicitSolver> solves for the pressure on one level; CFD/ICE/explicit=true switches it off";
 
 /// Advice if a run fails.
 inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder";
 
-/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the conditions at the sides of the grid.
-/// Throughout the scene the gas is numbered after the `solids` materials of MPM. Every problem goes to the diagnostics.
+/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the boundary conditions of the grid. In
+/// the scene, the `solids` materials of MPM come before the gas. Reports every problem to the diagnostics.
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
 
-/// The sections that readGas reads or accepts, for a component without further sections.
+/// The forms of the sections that readGas reads or accepts, for a component without further sections.
 std::vector<simulation::SectionForm> gasForms();
-/// Their names.
+/// The names of the sections in gasForms.
 std::vector<std::string> gasSections();
-/// The variables for which the sides of the grid may have conditions.
+/// The variables for which boundary conditions may be given.
 std::vector<grid::BoundaryVariable> gasBoundaryLabels();
-/// The types of their conditions; oscillating ones only if conditions may depend on time.
+/// The types of boundary conditions; oscillating ones only if conditions may depend on time.
 simulation::ConditionWords gasConditionWords(bool mayDependOnTime);
-/// The manual of the sections.
+/// Writes the manual of the sections in gasForms.
 void describeGas(std::ostream& out);
 
 }  // namespace tushar::ice

@@ -15,8 +15,8 @@ using input::Element;
 
 namespace {
 
-/// Notes a given pressure that differs from the one that follows from density and temperature; as in Uintah, it is
-/// ignored.
+/// Notes that a given pressure has no effect if it differs from the one that follows from density and temperature; it
+/// is ignored, as in Uintah.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -29,7 +29,8 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
         fmt::format("does nothing: the pressure follows from density and temperature, and is {:g} Pa", pressure));
 }
 
-/// The Dirichlet condition of a face for the gas, if it has one; the pressure is shared with material 0.
+/// The Dirichlet condition of a face that applies to the gas, if there is one; for the pressure, this may be the
+/// condition of material 0.
 std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVariable& label, int gas) {
   const bool isShared = label.name == euler::boundary::pressure.name;
   for (const Element& condition : face.children("BCType")) {
@@ -41,7 +42,8 @@ std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVari
   return {};
 }
 
-/// Checks that density, pressure and temperature agree at faces with all three, as two determine the third.
+/// Checks that density, pressure and temperature agree at faces where all three are given, since two determine the
+/// third.
 void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagnostics) {
   const auto sides = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   if (!sides) return;
@@ -75,13 +77,14 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
   }
 }
 
-/// Whether a volume fraction is a number, and this one.
+/// Whether a volume fraction is a constant with the given value.
 bool isShareOf(const GasBody& body, double share) {
   return body.share && body.share->isConstant() && (*body.share)(Vec3::Zero()) == share;
 }
 
-/// Reads a gas and its state at the start into the settings that it shares with others. `besideBodies`: a region with
-/// none of a single gas is a body's, and what space it leaves has the gas around it.
+/// Reads a gas and its initial state into the settings that it shares with other gases. With `besideBodies`, a region
+/// in which the only gas has the volume fraction 0 belongs to a body; if the body does not fill it, the surrounding gas
+/// does.
 void readMaterial(const GasMaterial& material, const Element& element, bool besideBodies, euler::Settings& settings,
                   Diagnostics& diagnostics) {
   settings.name = material.name;
@@ -108,7 +111,7 @@ void readMaterial(const GasMaterial& material, const Element& element, bool besi
   }
 }
 
-/// Checks that a single gas fills its regions, or leaves them to bodies.
+/// Checks that a single gas fills its regions; beside bodies, it may also leave a region to them.
 void checkShares(const GasMaterial& material, bool besideBodies, Diagnostics& diagnostics) {
   for (const GasBody& body : material.bodies)
     if (body.share && !isShareOf(body, 1) && !(besideBodies && isShareOf(body, 0)))
@@ -116,7 +119,7 @@ void checkShares(const GasMaterial& material, bool besideBodies, Diagnostics& di
                         fmt::format("found '{}', expected 1: a single gas fills the region", body.share->text()));
 }
 
-/// The diffusion of a gas, with the eddies of the scene.
+/// The diffusion of a gas, including the eddies of the scene.
 euler::VaryingDiffusion varyingOf(const GasMaterial& material, const GasScene& scene) {
   euler::VaryingDiffusion varying = material.varying;
   varying.uniform = {material.viscosity, material.conductivity};
@@ -153,7 +156,7 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
   checkMixture(materials, root, scene, scene.gas.gas.material, diagnostics);
 }
 
-/// Reads one gas of the scene that is a mixture of two.
+/// Reads a gas of the scene that is a mixture of two.
 void readBinary(const GasMaterial& material, const Element& root, GasScene& scene, Diagnostics& diagnostics) {
   const Element element = *root.child("MaterialProperties")->child("ICE")->child("material");
   const BinaryProperties& binary = *scene.binary;

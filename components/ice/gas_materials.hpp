@@ -6,11 +6,12 @@
 
 namespace tushar::ice {
 
-/// The number of the material for which a condition holds; -1 for all, or if the id is invalid, which the grid reports.
+/// The index of the material to which a condition applies; -1 for all materials. It is also -1 for an invalid id, which
+/// is reported when the grid is read.
 int materialOf(const input::Element& condition);
 
-/// Takes the materials of a scene, whose other settings it has: one gas, one that is a mixture of two, or several. They
-/// are numbered after `solids` bodies.
+/// Reads the materials into a scene whose other settings are known: one gas, a mixture of two gases, or several gases.
+/// In the scene, `solids` bodies come before them.
 void readMaterials(const std::vector<GasMaterial>& materials, const input::Element& root, int solids, GasScene& scene,
                    input::Diagnostics& diagnostics);
 

@@ -15,7 +15,7 @@ namespace {
 
 const Schema<AdvectionSection>& advectionSchema() {
   static const Schema<AdvectionSection> schema =
-      Schema<AdvectionSection>("advection", "How the flow is reconstructed at the faces of cells.")
+      Schema<AdvectionSection>("advection", "How the flow at the faces of cells is reconstructed.")
           .requiredChoiceAttribute(
               "type", &AdvectionSection::reconstruction,
               {{"FirstOrder", euler::Reconstruction::firstOrder}, {"SecondOrder", euler::Reconstruction::musclHancock}},
@@ -34,7 +34,7 @@ const Schema<StepSection>& stepSchema() {
                  input::between(0, 1))
           .ignored("knob_for_diffusion", "viscosity and conduction are explicit, and always limit the steps")
           .ignored("Scheme_for_delT_calc",
-                   "there is one scheme: dt is cfl divided by the rate at which cells are crossed");
+                   "there is only one scheme: dt is cfl divided by the rate at which cells are crossed");
   return schema;
 }
 
@@ -122,9 +122,10 @@ const Schema<HeatingSection>& heatingSchema() {
       Schema<HeatingSection>("ADD_HEAT", "Heat that is added to gases everywhere, for some time.")
           .location(&HeatingSection::where)
           .required("add_heat_matls", &HeatingSection::materials, "1", "indices of the materials; bodies come first")
-          .required("add_heat_coeff", &HeatingSection::perMass, "W/kg", "heat per mass and time of each of them")
-          .required("add_heat_t_start", &HeatingSection::start, "s", "time from which the heat is added")
-          .required("add_heat_t_final", &HeatingSection::end, "s", "until this time");
+          .required("add_heat_coeff", &HeatingSection::perMass, "W/kg",
+                    "heat per mass and time for each of these materials")
+          .required("add_heat_t_start", &HeatingSection::start, "s", "time at which the heating begins")
+          .required("add_heat_t_final", &HeatingSection::end, "s", "time at which the heating ends");
   return schema;
 }
 
@@ -145,12 +146,13 @@ const Schema<IceSection>& iceSchema() {
         .section("TimeStepControl", &IceSection::steps, stepSchema(), "the steps of an <ImplicitSolver>");
     input::noteTag(tags, "max_iteration_equilibration", "the pressure follows from density and energy");
     input::noteTag(tags, "ClampSpecificVolume", "the specific volume follows from the density");
-    tags.section("customInitialization", &IceSection::start, customStartSchema(), "the state at the start by formulas");
+    tags.section("customInitialization", &IceSection::start, customStartSchema(),
+                 "the initial state, given by formulas");
     tags.section("fixedPressureGradient", &IceSection::push, pushSchema(), "a force that drives a flow")
         .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells")
         .section("ADD_HEAT", &IceSection::heating, heatingSchema(), "heat from outside");
     input::refuseTag(tags, "wallShearStress", "the gas does not slip along a wall with a Velocity");
-    input::refuseSwitch(tags, "applyHydrostaticPressure", "give <density> a formula at the start");
+    input::refuseSwitch(tags, "applyHydrostaticPressure", "give the initial <density> as a formula");
     return tags;
   }();
   return schema;
@@ -253,8 +255,8 @@ const Schema<CoefficientSection>& coefficientModelSchema() {
     Schema<CoefficientSection> tags("CoefficientModel", "Exchange coefficients that vary.");
     tags.choice("heat", &CoefficientSection::heat, {{"constant", "constant"}, {"linearVariation", "linearVariation"}},
                 "constant",
-                "the numbers of <exchange_coefficients>, or the larger of r^2 and 1/r^2, where r is the ratio of both "
-                "masses in the cell, limited to 1e5 to 1e12");
+                "the numbers of <exchange_coefficients>, or the larger of r^2 and 1/r^2, where r is the ratio of the "
+                "two masses in the cell; the result is limited to 1e5 to 1e12");
     input::refuseTag(tags, "momentum", "bodies are walls to the gas, and gases share one velocity");
     return tags;
   }();
@@ -265,7 +267,7 @@ const Schema<ExchangeModelSection>& exchangeModelSchema() {
   static const Schema<ExchangeModelSection> schema = [] {
     Schema<ExchangeModelSection> tags("Model", "How bodies and gases exchange momentum and heat.");
     tags.requiredChoiceAttribute("type", &ExchangeModelSection::type, {{"scalar", "scalar"}, {"slip", "slip"}},
-                                 "by <exchange_coefficients>; slip: likewise, as <useSlipCoeffs> must be false")
+                                 "by <exchange_coefficients>; slip: the same, since <useSlipCoeffs> can only be false")
         .value("useSlipCoeffs", &ExchangeModelSection::slips, true, "1",
                "for slip: false; coefficients from the mean free path of a gas are not available");
     for (const char* tag :

@@ -18,46 +18,46 @@ struct AdvectionSection {
   euler::Reconstruction reconstruction = euler::Reconstruction::musclHancock;
 };
 
-/// `CFD/ICE/TimeStepControl`.
+/// The tag `CFD/ICE/TimeStepControl`.
 struct StepSection {
   double soundSpeedKnob = 0.5;
 };
 
-/// `CFD/ICE/ImplicitSolver/Parameters`, in hypre's words.
+/// The tag `CFD/ICE/ImplicitSolver/Parameters`, with hypre's names.
 struct HypreSection {
   std::string solver, preconditioner;
   double tolerance = 0;
   int maxIterations = 0;
 };
 
-/// `CFD/ICE/ImplicitSolver`.
+/// The tag `CFD/ICE/ImplicitSolver`.
 struct ImplicitSection {
   Location where;  ///< in the scene
   std::optional<HypreSection> hypre;
   std::optional<solvers::LinearSettings> solver;
 };
 
-/// `CFD/ICE/fixedPressureGradient`.
+/// The tag `CFD/ICE/fixedPressureGradient`.
 struct PushSection {
-  double x = 0, y = 0, z = 0;  ///< N/m³
+  double x = 0, y = 0, z = 0;  ///< components of the force per volume [N/m³]
 };
 
-/// `CFD/ICE/turbulence`.
+/// The tag `CFD/ICE/turbulence`.
 struct EddiesSection {
   Location where;  ///< in the scene
   std::string model;
   double constant = 0;
 };
 
-/// `CFD/ICE/ADD_HEAT`.
+/// The tag `CFD/ICE/ADD_HEAT`.
 struct HeatingSection {
   Location where;  ///< in the scene
   std::vector<int> materials;
-  std::vector<double> perMass;  ///< W/kg
-  double start = 0, end = 0;    ///< s
+  std::vector<double> perMass;  ///< heating rate of each gas [W/kg]
+  double start = 0, end = 0;    ///< start and end of heating [s]
 };
 
-/// `CFD/ICE`.
+/// The tag `CFD/ICE`.
 struct IceSection {
   AdvectionSection advection;
   bool isExplicit = false;
@@ -70,21 +70,22 @@ struct IceSection {
   std::optional<HeatingSection> heating;
 };
 
-/// `CFD`.
+/// The tag `CFD`.
 struct CfdSection {
   double cfl = 0;
   IceSection ice;
 };
 
-/// The gas of a region at the start.
+/// The initial gas in a region.
 struct GasBody {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
-  input::Expression density;                  ///< kg/m³
-  input::Expression temperature;              ///< K
-  input::VectorExpression velocity;           ///< m/s
-  std::optional<input::Expression> pressure;  ///< Pa; ignored, as it follows from the others
-  std::optional<input::Expression> share;     ///< volume fraction
+  input::Expression density;         ///< density [kg/m³]
+  input::Expression temperature;     ///< temperature [K]
+  input::VectorExpression velocity;  ///< velocity [m/s]
+  /// Pressure [Pa]; ignored, because it follows from density and temperature.
+  std::optional<input::Expression> pressure;
+  std::optional<input::Expression> share;  ///< volume fraction
 };
 
 /// `MaterialProperties/ICE/material/SpecificHeatModel`: the c_v of air, which depends on the temperature.
@@ -99,9 +100,9 @@ struct GasMaterial {
   std::string name;
   EquationOfState state;
   double gamma = 0;         ///< ratio of specific heats
-  double specificHeat = 0;  ///< c_v, J/(kg K)
-  double viscosity = 0;     ///< Pa s
-  double conductivity = 0;  ///< W/(m K)
+  double specificHeat = 0;  ///< specific heat c_v [J/(kg K)]
+  double viscosity = 0;     ///< viscosity [Pa s]
+  double conductivity = 0;  ///< conductivity [W/(m K)]
   euler::VaryingDiffusion varying;
   std::optional<AirSection> air;
   std::vector<GasBody> bodies;
@@ -114,15 +115,15 @@ struct GasMaterials {
   std::vector<GasMaterial> materials;
 };
 
-/// `MaterialProperties/exchange_properties/CoefficientModel`.
+/// The tag `MaterialProperties/exchange_properties/CoefficientModel`.
 struct CoefficientSection {
   std::string heat = "constant";
 };
 
-/// `MaterialProperties/exchange_properties/Model`.
+/// The tag `MaterialProperties/exchange_properties/Model`.
 struct ExchangeModelSection {
   std::string type;
-  bool slips = true;  ///< coefficients follow from the mean free path of a gas
+  bool slips = true;  ///< whether coefficients follow from the mean free path of a gas
 };
 
 struct ExchangeSection {
@@ -131,29 +132,29 @@ struct ExchangeSection {
   std::optional<ExchangeModelSection> exchangeModel;
 };
 
-/// `MaterialProperties`.
+/// The tag `MaterialProperties`.
 struct PropertiesSection {
   GasMaterials ice;
   std::optional<ExchangeSection> exchange;
 };
 
-/// `PhysicalConstants`.
+/// The tag `PhysicalConstants`.
 struct ConstantsSection {
-  Vec3 gravity = Vec3::Zero();   ///< m/s²
-  double referencePressure = 0;  ///< Pa
+  Vec3 gravity = Vec3::Zero();   ///< gravity [m/s²]
+  double referencePressure = 0;  ///< reference pressure [Pa]
 };
 
 const input::Schema<CfdSection>& cfdSchema();
 const input::Schema<PropertiesSection>& propertiesSchema();
 const input::Schema<ConstantsSection>& constantsSchema();
 
-/// Reads `dynamicViscosityModels` of a material.
+/// Reads the `dynamicViscosityModels` of a material.
 void readViscosityModels(euler::VaryingDiffusion& varying, const input::Element& material,
                          input::Diagnostics& diagnostics);
-/// Its manual.
+/// Writes the manual of `dynamicViscosityModels`.
 void describeViscosityModels(std::ostream& out, int indent);
 
-/// `Models`.
+/// The tag `Models`.
 struct ModelsSection {
   std::vector<ScalarSettings> scalars;
   std::vector<MassExchange> massExchanges;

@@ -8,22 +8,22 @@
 
 namespace tushar::ice {
 
-/// `CFD/ICE/ADD_HEAT`: gases are heated for some time.
+/// The tag `CFD/ICE/ADD_HEAT`: gases are heated during a period of time.
 struct Heating {
   Location where;               ///< in the scene
-  std::vector<double> perMass;  ///< of each gas, W/kg
-  double start = 0, end = 0;    ///< s
+  std::vector<double> perMass;  ///< heating rate of each gas [W/kg]
+  double start = 0, end = 0;    ///< start and end of heating [s]
 
   bool acts() const {
     return std::any_of(perMass.begin(), perMass.end(), [](double rate) { return rate != 0; });
   }
-  /// The heat per mass that is added to a gas in a step [J/kg]; 0 if the step starts outside the heating period.
+  /// The heat per mass added to a gas in a step [J/kg]; 0 if the step starts outside the heating period.
   double inStep(std::size_t gas, double time, double dt) const {
     return time >= start && time <= end ? perMass[gas] * dt : 0;
   }
 };
 
-/// Heats one gas.
+/// Adds heat to one gas.
 template <int D>
 void addHeat(const Patch& patch, const Heating& heating, CellView<const double> density, double time, double dt,
              CellView<double> totalEnergy) {

@@ -5,8 +5,8 @@
 
 namespace tushar::ice {
 
-/// The heating of `gases` gases, whose indices follow those of the bodies. Reports materials that are no gas or given
-/// twice, lists of unlike length, and times in the wrong order.
+/// The heating of `gases` gases, whose indices follow those of `solids` bodies. Reports materials that are not gases or
+/// are given twice, lists of different lengths, and times in the wrong order.
 Heating heatingOf(const HeatingSection& read, int solids, std::size_t gases, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::ice

@@ -163,7 +163,8 @@ template class Ice<3>;
 
 namespace {
 
-/// The tasks of several gases need more ghosts than those of one.
+/// The smallest number of cells along an axis of a block; the tasks for several gases need more ghosts than those for
+/// one.
 int cellsOfBlocks(const input::Element& root) {
   const auto properties = root.child("MaterialProperties");
   const auto gases = properties ? properties->child("ICE") : std::nullopt;

@@ -38,25 +38,26 @@ class Ice : public euler::Euler<D> {
  protected:
   const IceSettings& acting() const { return acting_; }
   bool keepsFaceMasses() const override { return !scalars_.empty(); }
-  /// Advection of scalars, after the step of the gas.
+  /// Adds the tasks that advect scalars after the step of the gas.
   void scheduleScalars(TaskList& tasks) const;
-  /// The limits of scalars on the time step.
+  /// Adds the tasks that limit the time step because of scalars.
   void scheduleStepsOfScalars(TaskList& tasks) const;
-  /// Viscosity, conduction and a driving force, after the step of the gas.
+  /// Adds viscosity, conduction and a driving force, after the step of the gas.
   void scheduleDiffusion(TaskList& tasks) const;
-  /// The limit of a varying viscosity, together with this fraction of the speed of sound.
+  /// Adds the task that limits the time step by a varying viscosity, together with the given fraction of the speed of
+  /// sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
 
  private:
   CarriedScalars scalars_;
-  IceSettings acting_;  ///< contains only uniform diffusion; none if it varies
+  IceSettings acting_;  ///< settings of the step; they contain the diffusion only if it is uniform
   euler::VaryingDiffusion varying_;
-  Vec3 push_;  ///< N/m³
+  Vec3 push_;  ///< driving force per volume [N/m³]
   Heating heating_;
 };
 
-/// Implicit steps: the pressure at the end of a step solves a linear system, and determines the flow of mass, momentum
-/// and energy.
+/// A gas with implicit steps. The pressure at the end of a step solves a linear system; it determines the flow of mass,
+/// momentum and energy.
 template <int D>
 class ImplicitIce : public Ice<D> {
  public:
@@ -76,7 +77,7 @@ extern template class ImplicitIce<1>;
 extern template class ImplicitIce<2>;
 extern template class ImplicitIce<3>;
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::ice

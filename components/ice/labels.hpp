@@ -4,7 +4,7 @@
 
 namespace tushar::ice {
 
-/// Cell variables that only a gas with a specific heat has, and those that Uintah's ICE saves.
+/// Labels of cell variables that need a specific heat of the gas, and of others that Uintah's ICE saves.
 namespace c {
 inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature"};
 inline constexpr CellLabel<double> specificVolume{"c.specificVolume", "m^3/kg", "volume per mass"};

@@ -17,7 +17,7 @@ using input::Schema;
 
 namespace {
 
-/// The attribute `type` of a <Model>.
+/// The values of the attribute `type` of a <Model>.
 const std::vector<std::string> modelTypes{"PassiveScalar", "Test",      "Simple_Burn",     "Steady_Burn",
                                           "DDT1",          "LightTime", "BinaryProperties"};
 
@@ -31,7 +31,7 @@ const Schema<ScalarRegion>& startSchema() {
                "instead of <scalar>, the sum over axes of sin(2 pi freq d), where d goes from 0 to 1 across the region")
         .value("freq", &ScalarRegion::waves, Vec3::Zero(), "1", "number of waves along each axis")
         .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "adds slope · d, with the same d")
-        .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "rise across the region along each axis")
+        .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "increase across the region along each axis")
         .ignored("coeff", "belongs to profiles that a formula can describe")
         .ignoredAttribute("name", "a note for readers");
     for (const char* tag : {"triangularInitialize", "quadraticInitialize", "cubicInitialize",
@@ -108,7 +108,7 @@ const Schema<PassiveScalarSection>& passiveScalarSchema() {
   static const Schema<PassiveScalarSection> schema =
       Schema<PassiveScalarSection>("PassiveScalar", "A quantity per mass that is transported with the gas.")
           .requiredSection("scalar", &PassiveScalarSection::scalar, scalarSchema())
-          .ignored("material", "there is one gas");
+          .ignored("material", "there is only one gas");
   return schema;
 }
 
@@ -119,19 +119,20 @@ const Schema<MassExchange>& massExchangeSchema() {
           .foreignAttribute("type", "Test")
           .required("fromMaterial", &MassExchange::from, "1", "the gas or the body that is converted")
           .required("toMaterial", &MassExchange::to, "1", "the gas into which it is converted")
-          .required("rate", &MassExchange::rate, "1/s", "fraction that is converted per time", input::nonNegative())
+          .required("rate", &MassExchange::rate, "1/s", "fraction that is converted per unit time",
+                    input::nonNegative())
           .value("startTime", &MassExchange::startTime, 0, "s", "time at which the conversion begins");
   return schema;
 }
 
-/// Older scenes give the numbers without a <Test> around them.
+/// Reads a mass exchange. Older scenes give the numbers without a <Test> around them.
 void readExchange(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const auto given = model.child("Test");
   if (!given && !model.child("fromMaterial")) return diagnostics.error(model, "missing tag <Test> in <Model>");
   models.massExchanges.push_back(massExchangeSchema().read(given.value_or(model), diagnostics));
 }
 
-/// Reads a body that burns from the tag with the name of the model.
+/// Reads the burn model of a body from the tag that has the name of the model.
 template <class Section>
 void readBurning(const Element& model, const Schema<Section>& schema, ModelsSection& models, Diagnostics& diagnostics) {
   const auto given = model.child(schema.name());
@@ -197,7 +198,8 @@ double ScalarRegion::at(const Vec3& point) const {
 
 const Schema<ModelsSection>& modelsSchema() {
   static const Schema<ModelsSection> schema =
-      Schema<ModelsSection>("Models", "Quantities that are transported with the gas.")
+      Schema<ModelsSection>("Models",
+                            "Scalars that are transported with the gas, and conversions of one material into another.")
           .custom(
               "Model",
               [](ModelsSection& models, const Element& section, Diagnostics& diagnostics) {

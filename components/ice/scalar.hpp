@@ -11,17 +11,19 @@
 
 namespace tushar::ice {
 
-/// A region of a scalar, with its initial value or its increase.
+/// A region with the initial value of a scalar, or with its source.
 struct ScalarRegion {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
-  input::Expression value;  ///< of the scalar, or its increase in each step
+  input::Expression value;  ///< value of the scalar, or its increase in each step
   double most = 0;          ///< largest value after the increase
   bool isSine = false, isLinear = false;
-  Vec3 waves = Vec3::Zero();  ///< sin(2 pi waves_a d_a) along each axis, d from 0 to 1 through the region
-  Vec3 slope = Vec3::Zero();  ///< slope in slope . d, which is added to the value
+  /// Number of waves along each axis: the value has a factor sin(2 pi waves_a d_a), where d_a runs from 0 to 1 through
+  /// the region.
+  Vec3 waves = Vec3::Zero();
+  Vec3 slope = Vec3::Zero();  ///< slope in the term slope . d, which is added to the value
 
-  /// The scalar of the region at a point [m].
+  /// The value of the scalar in the region at a point [m].
   double at(const Vec3& point) const;
 };
 
@@ -29,9 +31,9 @@ struct ScalarRegion {
 struct ScalarSettings {
   Location where;  ///< in the scene
   std::string name;
-  double diffusivity = 0;              ///< m²/s
-  std::vector<ScalarRegion> start;     ///< where they overlap, the last one applies
-  std::vector<ScalarRegion> interior;  ///< sources: regions where it increases in each step
+  double diffusivity = 0;              ///< diffusivity [m²/s]
+  std::vector<ScalarRegion> start;     ///< initial values; where regions overlap, the last one applies
+  std::vector<ScalarRegion> interior;  ///< sources: regions in which the scalar increases in each step
 };
 
 /// A scalar and the names of its variables, whose addresses must not change while tasks refer to them.
@@ -50,9 +52,9 @@ class CarriedScalar {
   /// held() before small cells beside bodies are merged.
   const CellLabel<double>& unshared() const { return unshared_; }
   const ReductionLabel<Sum>& total() const { return total_; }
-  /// For conditions at sides of the grid.
+  /// The label for boundary conditions.
   const BoundaryLabel<double>& atSides() const { return atSides_; }
-  /// Uintah's name, and the one in Tushar.
+  /// The name of the variable in Uintah, and its name in Tushar.
   std::pair<std::string, std::string> names() const { return {words_[0], words_[1]}; }
   /// Adds Uintah's variables of a scalar that no task computes here.
   void addForeignLabels(std::vector<std::string>& labels) const {
@@ -74,7 +76,7 @@ class CarriedScalar {
 
 using CarriedScalars = std::vector<std::shared_ptr<const CarriedScalar>>;
 
-/// Scalars for which sides of the grid may have conditions, by Uintah's names.
+/// Uintah's names of the scalars for which boundary conditions may be given.
 inline constexpr std::array<const char*, 4> scalarsAtSides{"scalar-f", "scalar-q", "scalar-f_CC", "scalar-q_CC"};
 
 }  // namespace tushar::ice

@@ -11,7 +11,7 @@ using input::Schema;
 
 namespace {
 
-constexpr double surroundings = 300;  ///< K, as in Uintah
+constexpr double surroundings = 300;  ///< temperature of the surroundings [K], as in Uintah
 
 const Schema<VortexList>& vorticesSchema() {
   static const Schema<Vortex> vortex =
@@ -43,7 +43,7 @@ const Schema<Counterflow>& counterflowSchema() {
   static const Schema<Counterflow> schema =
       Schema<Counterflow>("counterflow", "Gas flows in along x and out along y.")
           .required("strainRate", &Counterflow::strainRate, "1/s",
-                    "a in v_x = -a (x - m), where m is half the grid's length")
+                    "strain rate a in v_x = -a (x - m), where m is half the length of the grid")
           .ignored("referenceCell", "the pressure follows from density and temperature");
   return schema;
 }
@@ -73,7 +73,7 @@ void setWindOfVortices(double amplitude, const Vec3& x, Vec3& velocity) {
   velocity[0] = 1 - amplitude * std::cos(x[0]) * std::sin(x[1]);
   velocity[1] = 1 + amplitude * std::sin(x[0]) * std::cos(x[1]);
 }
-/// Pressure as in Uintah for a density of 1 kg/m³, Pa.
+/// Pressure [Pa] of the flow mms_1 for a density of 1 kg/m³, as in Uintah.
 double pressureOfWind(double amplitude, const Vec3& x) {
   return 101325 - amplitude * amplitude / 4 * (std::cos(2 * x[0]) + std::cos(2 * x[1]));
 }

@@ -12,13 +12,13 @@ namespace tushar::ice {
 inline constexpr const char* thinWallsPath = "CFD/ICE/thin_walls";
 inline constexpr const char* exchangePath = "MaterialProperties/exchange_properties/exchange_coefficients";
 
-/// Variables of Uintah that have another name here.
+/// Variables of Uintah that have another name in Tushar.
 inline const simulation::OtherNames uintahsNames{
     {"rho_CC", "c.density"},           {"rho_micro_CC", "c.density"},     {"press_CC", "c.pressure"},
     {"press_equil_CC", "c.pressure"},  {"vel_CC", "c.velocity"},          {"temp_CC", "c.temperature"},
     {"sp_vol_CC", "c.specificVolume"}, {"speedSound_CC", "c.soundSpeed"}, {"mach", "c.mach"}};
 
-/// Variables of Uintah that no task computes here.
+/// Variables of Uintah that no task of Tushar computes.
 inline const std::vector<std::string> uintahsLabels{"vol_frac_CC",
                                                     "sp_vol_L_CC",
                                                     "delP_Dilatate",

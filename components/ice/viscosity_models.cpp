@@ -22,7 +22,7 @@ const Schema<euler::Sutherland>& sutherlandSchema() {
   return schema;
 }
 
-/// The box of a sponge layer, and the layer.
+/// The box of a sponge layer, as written in the scene, and the layer.
 struct SpongeBox {
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();
 };

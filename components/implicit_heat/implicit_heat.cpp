@@ -28,7 +28,7 @@ void ImplicitHeat<D>::scheduleDiagnostics(TaskList& tasks) const {
 
 namespace {
 
-/// Extrapolates T to the time dt from that at theta dt, which `newTemperature` contains.
+/// Extrapolates T to the time dt from T at the time theta dt, which `newTemperature` contains.
 template <int D>
 void extrapolate(const RankPatches& patches, double theta, const std::vector<CellView<const double>>& temperature,
                  const std::vector<CellView<double>>& newTemperature) {

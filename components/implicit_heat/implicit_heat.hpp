@@ -12,7 +12,7 @@ namespace boundary = heat::boundary;
 using heat::totalEnergy;
 inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
 
-/// The `Heat` section, for implicit steps, which do not use `cfl` and `refinementTolerance`.
+/// The `Heat` section for implicit steps; these do not use `cfl` and `refinementTolerance`.
 struct Settings : heat::Settings {
   double theta = 1;  ///< weight of the new temperature in the flux
   solvers::LinearSettings solver;
@@ -21,8 +21,8 @@ struct Settings : heat::Settings {
 /// Heat conduction, rho c dT/dt = div(k grad T), implicit in time, centred in space, in D dimensions: stable with any
 /// time step.
 ///
-/// At a face with `Temperature` Dirichlet the value [K] is kept, with Neumann the outward derivative [K/m]; any other
-/// face is insulated.
+/// A face with a Dirichlet condition for `Temperature` has the given value [K], one with a Neumann condition the given
+/// outward derivative [K/m]; any other face is insulated.
 template <int D>
 class ImplicitHeat : public Component {
  public:
@@ -37,17 +37,18 @@ class ImplicitHeat : public Component {
   Settings settings_;
 };
 
-/// rho c (T' - T) / dt = div(k grad T*) with T* = theta T' + (1 - theta) T: a linear system for T* in all cells, from
-/// which T' = T + (T* - T) / theta. theta = 1: backward Euler, of first order in time, and on one level no T' is
-/// outside the range of T and the faces; theta = 1/2: Crank & Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50, of second
-/// order. Both are stable for any dt. Throws NumericalError if the solver gives up.
+/// Solves rho c (T' - T) / dt = div(k grad T*) with T* = theta T' + (1 - theta) T. This is a linear system for T* in
+/// all cells; it gives T' = T + (T* - T) / theta. theta = 1 is backward Euler, of first order in time; on a single
+/// level, T' then stays within the range of T and the boundary values. theta = 1/2 is the method of Crank & Nicolson,
+/// Proc. Camb. Phil. Soc. 43 (1947) 50, of second order. Both are stable for any dt. Throws NumericalError if the
+/// solver fails.
 template <int D>
 void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double dt,
              const std::vector<CellView<const double>>& temperature,
              const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
              Maximum& setup, Maximum& solution);
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::implicit_heat

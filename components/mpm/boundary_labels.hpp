@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::boundary {
 
-/// The values that a side of the grid prescribes for a material.
+/// Labels of the values that a side of the grid prescribes for a material.
 inline constexpr grid::BoundaryLabel<Vec3> velocity{"Velocity"};
 inline constexpr grid::BoundaryLabel<double> temperature{"Temperature"};
 

@@ -7,7 +7,7 @@
 
 namespace tushar::mpm {
 
-/// Particle variables.
+/// Labels of particle variables.
 namespace p {
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> x{"p.x", "m", "position"};
@@ -17,7 +17,7 @@ inline constexpr ParticleLabel<double> mass{"p.mass", "kg", "mass"};
 inline constexpr ParticleLabel<double> volume{"p.volume", "m^3", "volume: mass divided by density"};
 }  // namespace p
 
-/// Node variables.
+/// Labels of node variables.
 namespace g {
 inline constexpr NodeLabel<double> mass{"g.mass", "kg", "mass gathered from particles"};
 template <int D>
@@ -29,7 +29,7 @@ inline constexpr NodeLabel<Vec<D>> acceleration{
     "g.acceleration", "m/s^2", "acceleration due to the stresses alone: internal force divided by mass"};
 }  // namespace g
 
-/// Totals over all particles.
+/// Labels of totals over all particles.
 namespace total {
 using simulation::total::kineticEnergy;
 using simulation::total::mass;

@@ -16,7 +16,7 @@ MethodKind& entryOf(Method method) {
   return entries[static_cast<std::size_t>(method)];
 }
 
-/// The description of a method, whose module is loaded if necessary.
+/// Returns the description of a method; loads the module of the method if necessary.
 const MethodKind& kindOf(Method method) {
   simulation::loadModule(modules[static_cast<std::size_t>(method)]);
   return entryOf(method);

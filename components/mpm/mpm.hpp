@@ -7,10 +7,10 @@ namespace tushar::mpm {
 /// The methods of this component, each in a separate module.
 enum class Method { gas, solid, implicitSolid };
 
-/// The method that the <MPM> section of a scene selects.
+/// The method selected by the <MPM> section of a scene.
 Method methodOf(const input::Element& root);
 
-/// The description of a method: its part of the ComponentKind, whose fields have the same names.
+/// The part of a ComponentKind that depends on the method. Its fields have the same names as those of ComponentKind.
 struct MethodKind {
   std::function<simulation::MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;
@@ -18,10 +18,10 @@ struct MethodKind {
   std::function<int(const input::Element& root)> nodesBeyond = {};
 };
 
-/// Must be called by the module of a method when it is loaded.
+/// Registers a method. The module of the method calls this function when it is loaded.
 void define(Method method, MethodKind kind);
 
-/// All methods as one component.
+/// Describes all methods as one component.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::mpm

@@ -5,9 +5,9 @@
 
 namespace tushar::mpmice {
 
-/// Velocities and masses of all solids at nodes, for use at faces: a face distributes forces over the nodes of the
-/// cells on both sides, in proportion to their masses. One set of shares serves velocity, force and work, so that what
-/// the gas loses is what the nodes get.
+/// Velocities and masses of all solids at nodes, for use at faces. A face distributes forces over the nodes of the
+/// cells on both sides of it, in proportion to the masses at these nodes. Velocity, force and work have the same
+/// weights, so the losses of the gas equal the gains of the nodes.
 template <int D>
 class BodiesAtNodes {
  public:
@@ -15,7 +15,7 @@ class BodiesAtNodes {
 
   BodiesAtNodes(const Level& level, const Records& records) : level_(&level), records_(&records) {}
 
-  /// The nodes on the grid of the cells on both sides of the lower face of a cell across an axis.
+  /// The nodes on the grid that belong to the cells on both sides of the lower face of a cell across an axis.
   Box nodesAt(const Index<D>& cell, int axis) const {
     Box nodes{{}, Index3::filled(1)};
     for (int d = 0; d < D; ++d) {
@@ -27,13 +27,14 @@ class BodiesAtNodes {
     nodes.upper[axis] = std::min(nodes.upper[axis], level_->cells().upper[axis] + 1);
     return nodes;
   }
-  /// Mass of all solids at these nodes, kg.
+  /// Mass of all solids at the nodes of nodesAt [kg].
   double massAt(const Index<D>& cell, int axis) const {
     double mass = 0;
     forEachAt(cell, axis, [&](const mpm::solid::NodeRecord& record) { mass += record[mpm::solid::lane::mass]; });
     return mass;
   }
-  /// Their mass-weighted mean velocity, m/s; 0 without mass. `lane` is that of the record: before the step, or after.
+  /// Mean velocity of all solids at the nodes of nodesAt, weighted by mass [m/s]; 0 without mass. `lane` selects the
+  /// velocity before or after the step in the records.
   Vec<D> velocityAt(const Index<D>& cell, int axis, int lane) const {
     double mass = 0;
     Vec<D> momentum = Vec<D>::Zero();

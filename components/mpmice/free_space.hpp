@@ -6,25 +6,25 @@
 
 namespace tushar::mpmice {
 
-/// Open fraction of a face between two cells with gas; bodies cover the fraction `coverage` of the face and leave the
-/// volume fractions `below` and `above` free. At most eight times the free volume beside the face is open, so that gas
-/// cannot rush out of a cell that is almost full.
+/// Open fraction of a face between two cells with gas. Bodies cover the fraction `coverage` of the face, and leave the
+/// volume fractions `below` and `above` of the two cells free. At most eight times the free volume beside the face is
+/// open, so that gas cannot rush out of a cell that is almost full.
 inline double openShare(double coverage, double below, double above, bool thinWalls) {
   double most = 8 * std::min(below, above);
   if (thinWalls) most = std::min(most, std::max(0.0, 1 - 4 * ((1 - below) + (1 - above))));
   return std::max(0.0, std::min(1 - coverage, most));
 }
 
-/// The two faces of a cell across an axis, as fractions of their area.
+/// The open fractions and walls at the two faces of a cell across an axis, as fractions of the face area.
 struct OpenFaces {
   std::array<double, 2> open{};
-  double area = 0;  ///< open and wall together, the same for both; 0 if the cell has no gas
+  double area = 0;  ///< open part and wall together, equal for both faces; 0 if the cell has no gas
 
   double wall(int side) const { return area - open[side]; }
 };
 
-/// The degree to which the walls of a cell face in the same direction: 1 for one plane wall, 0 for two walls that face
-/// each other.
+/// The degree to which the walls of a cell face in one direction: 1 for one plane wall, 0 for two walls that face each
+/// other.
 template <int D>
 double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   double open = 0, all = 0;
@@ -37,7 +37,7 @@ double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   return all > 0 ? std::min(1.0, std::sqrt(open / all)) : 0;
 }
 
-/// The cell itself or, beyond the grid, the nearest on it.
+/// The cell itself or, if it is outside the grid, the nearest cell on the grid.
 template <int D>
 Index<D> nearestOnGrid(const Level& level, Index<D> cell) {
   for (int d = 0; d < D; ++d)
@@ -45,10 +45,10 @@ Index<D> nearestOnGrid(const Level& level, Index<D> cell) {
   return cell;
 }
 
-/// The space for the gas: free volumes of cells, and open fractions of faces, which bodies do not cover.
+/// The space available to the gas: the free volumes of cells and the open fractions of faces, which bodies leave.
 ///
-/// A face is open in part, or closed: then there is a wall. Areas close in each cell: along each axis it has the same
-/// area on both sides, open or wall, so that a gas at rest exerts no force.
+/// A face that is not completely open has a wall on the rest of its area. Along each axis, a cell has the same area,
+/// open and wall together, on both sides, so that a gas at rest exerts no force.
 template <int D>
 class FreeSpace {
  public:
@@ -62,7 +62,7 @@ class FreeSpace {
     return side == 0 ? cell[axis] == level_->cells().lower[axis] : cell[axis] == level_->cells().upper[axis] - 1;
   }
 
-  /// The cell itself or, beyond the grid, the nearest on it.
+  /// The cell itself or, if it is outside the grid, the nearest cell on the grid.
   Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(*level_, cell); }
 
   /// Open fraction of a face.
@@ -79,8 +79,8 @@ class FreeSpace {
     return both;
   }
 
-  /// Unit vector into the body: the gradient of 1 - free volume over the cells around, weighted 1 2 1 across; 0 where
-  /// it has none. Source: D. L. Youngs, AWRE report 44/92/35 (1984).
+  /// Unit vector into the body: the direction of the gradient of 1 - free volume over the surrounding cells, weighted 1
+  /// 2 1 across each axis; 0 if the gradient vanishes. Source: D. L. Youngs, AWRE report 44/92/35 (1984).
   Vec<D> normal(const Index<D>& cell) const {
     Vec<D> gradient = Vec<D>::Zero();
     Box around{{}, Index3::filled(1)};

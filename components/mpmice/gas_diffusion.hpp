@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// rho, T, v and c of the gas of a cell, which must contain some, and its diffusion coefficients, without eddies.
+/// The diffusing quantities of a cell that contains gas, rho, T, v and c, and its coefficients without eddies.
 template <int D>
 euler::DiffusingCell<D> diffusingAt(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                                     const Index<D>& cell) {
@@ -36,7 +36,7 @@ euler::DiffusingCell<D> diffusingAt(const Level& level, const Settings& settings
   return one;
 }
 
-/// Viscosity at the walls of a cell with gas [Pa s], without eddies, which walls damp.
+/// Viscosity at the walls of a cell with gas [Pa s]. It contains no eddies, because walls damp them.
 template <int D>
 double viscosityAtWalls(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                         const Index<D>& cell) {

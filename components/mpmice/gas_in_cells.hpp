@@ -10,7 +10,7 @@
 
 namespace tushar::mpmice {
 
-/// The contents of gas per volume of the gas itself: rho, rho v, E, and, for several gases, the mass and the volume
+/// The content of the gas, per volume of the gas itself: rho, rho v, E and, for several gases, the mass and the volume
 /// fraction of each.
 template <int D>
 struct Parcel {
@@ -26,7 +26,7 @@ struct Parcel {
   }
 };
 
-/// The law of the gas; for several gases, that of a stiffened gas that is equivalent to their mixture in a cell.
+/// The law of the gas in a cell; for several gases, that of the stiffened gas equivalent to their mixture.
 template <int D, class T>
 euler::Gas lawAt(const Settings& settings, const euler::MixtureViews<D, T>& held, const Index<D>& cell) {
   if (settings.gases.empty()) return settings.gas.gas;
@@ -36,7 +36,7 @@ euler::Gas lawAt(const Settings& settings, const euler::MixtureViews<D, T>& held
   return mixed.alike();
 }
 
-/// Views of one variable of each of several gases.
+/// Views of one variable for each of several gases.
 template <class Take, class Access>
 auto viewsOfGases(Take& take, std::size_t gases, Access&& access) {
   std::vector<std::decay_t<decltype(take(access(0)))>> views;
@@ -44,20 +44,20 @@ auto viewsOfGases(Take& take, std::size_t gases, Access&& access) {
   return views;
 }
 
-/// The gas in the free part of cells: its content, per volume of the cell, and the free volume. Of several gases the
-/// masses are per volume of the cell, too; shares are those of the gas's volume.
+/// The gas in the free part of cells: its content, per cell volume, and the free volume. For several gases, the masses
+/// are also per cell volume, but volume fractions refer to the volume of the gas.
 template <int D>
 struct GasInCells {
   euler::MixtureViews<D, const double> held;
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
 
-  /// Numbers of ghost layers for the state, for the presence of gas, and for the free volume.
+  /// Numbers of ghost layers that are needed of the state, of the presence of gas, and of the free volume.
   struct Reach {
     int state = 0, mass = 0, room = 0;
-    std::size_t gases = 0;  ///< of several
+    std::size_t gases = 0;  ///< number of gases if there are several, otherwise 0
   };
-  /// `reads` makes accesses to the state at the start of a step, or as computed in the step.
+  /// `reads` makes the accesses to the state, which is that at the start of a step, or the one computed in the step.
   static GasInCells from(auto& take, auto reads, const Reach& ghost) {
     const auto ofEach = [&](const auto& labels) {
       return viewsOfGases(take, ghost.gases, [&](std::size_t k) { return reads(labels[k], ghost.state); });
@@ -70,9 +70,9 @@ struct GasInCells {
             .coverage = take(reads(c::coverage<D>, ghost.room))};
   }
   bool isEmpty(const Index<D>& cell) const { return free[cell] < leastFreeVolume || !(held.density[cell] > 0); }
-  /// Whether a cell contains a body, or no gas.
+  /// Whether a cell contains a body or contains no gas.
   bool hasBody(const Index<D>& cell) const { return free[cell] < wholeFreeVolume || isEmpty(cell); }
-  /// rho, rho v, E per volume of the gas; the cell must contain some.
+  /// Rho, rho v, E per volume of the gas, in a cell that contains gas.
   euler::State<D> conserved(const Index<D>& cell) const {
     const double inverse = 1 / free[cell];
     euler::State<D> u;
@@ -81,7 +81,7 @@ struct GasInCells {
     u[euler::kPressure<D>] = held.totalEnergy[cell] * inverse;
     return u;
   }
-  /// The same with the content of each of several gases.
+  /// Like `conserved`, including the content of each of several gases.
   Parcel<D> parcel(const Index<D>& cell) const {
     Parcel<D> parcel{conserved(cell)};
     for (std::size_t k = 0; k < held.shares.size(); ++k) {
@@ -90,7 +90,7 @@ struct GasInCells {
     }
     return parcel;
   }
-  /// The content of a cell, even without free volume, times a factor.
+  /// The content of a cell times a factor; the cell may have no free volume.
   Parcel<D> contentOf(const Index<D>& cell, double factor) const {
     Parcel<D> parcel;
     parcel.u[euler::kDensity] = factor * held.density[cell];
@@ -102,7 +102,7 @@ struct GasInCells {
     }
     return parcel;
   }
-  /// rho, v, p of the gas itself and, for K gases, the mass and the volume fraction of each.
+  /// rho, v, p of the gas itself and, for K > 1 gases, the mass and the volume fraction of each.
   template <class G>
   euler::State<D, euler::kGases<G>> primitive(const G& gas, const Index<D>& cell) const {
     if constexpr (constexpr int K = euler::kGases<G>; K == 1) {
@@ -120,8 +120,8 @@ struct GasInCells {
   }
 };
 
-/// Throws NumericalError for an impossible gas in the free fraction `free` of a cell, with its density [kg/m³] and the
-/// last number of its primitive state.
+/// Throws NumericalError for an impossible gas in a cell, given the free fraction `free` of the cell, the density of
+/// the gas [kg/m³] and the last component of its primitive state.
 template <int D>
 [[noreturn]] void refuseGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, double free,
                             double density, double last) {

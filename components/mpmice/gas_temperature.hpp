@@ -4,15 +4,15 @@
 
 namespace tushar::mpmice {
 
-/// Temperature of a gas, K, from its density and the last of its primitive variables: (p + p_inf) / (R rho), or by its
-/// own equation of state.
+/// Temperature of a gas [K], from its density and the last component of its primitive state: (p + p_inf) / (R rho), or
+/// by its own equation of state.
 inline double temperatureOf(const euler::Gas& gas, double density, double last) {
   if (gas.law) return gas.temperature(density, gas.energyOf(density, last));
   return (last + gas.pInfinity) / (gas.gasConstant() * density);
 }
 
-/// The temperature, K, of the gas in a cell, which must contain some. That of several gases is the same for all: rho e
-/// = sum of m_k c_v,k T + z_k p_inf,k.
+/// The temperature [K] of the gas in a cell that contains gas. Several gases have one temperature, from rho e = sum of
+/// m_k c_v,k T + z_k p_inf,k.
 template <int D>
 double gasTemperature(const Settings& settings, const GasInCells<D>& cells, const Index<D>& cell) {
   if (settings.gases.empty()) {

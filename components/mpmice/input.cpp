@@ -16,7 +16,8 @@ using input::Element;
 
 namespace {
 
-/// Calls a function for each pair of a body and a gas; Uintah's matrices contain the pairs row by row.
+/// Calls a function for each pair of a body and a gas; `pairs` is a matrix of Uintah, which contains all pairs row by
+/// row.
 template <class Visit>
 void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases, Visit&& visit) {
   std::size_t at = 0;
@@ -25,7 +26,7 @@ void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases,
       if (column >= solids) visit(row, pairs[at]);
 }
 
-/// Whether a list has one number for each pair of materials; reports it otherwise.
+/// Whether a list has one number for each pair of materials; reports an error otherwise.
 bool hasAllPairs(const std::vector<double>& given, const char* name, int materials, const Element& tag,
                  Diagnostics& diagnostics) {
   const std::size_t pairs = static_cast<std::size_t>(materials) * (materials - 1) / 2;
@@ -36,7 +37,7 @@ bool hasAllPairs(const std::vector<double>& given, const char* name, int materia
   return false;
 }
 
-/// The least width of a cell, m; none if the scene says no number, or if its grid is refined.
+/// The smallest width of a cell [m]; none if the scene does not give it as a number, or if the grid has several levels.
 std::optional<double> leastWidth(const Element& root) {
   const auto grid = root.child("Grid");
   const auto levels = grid ? grid->children("Level") : std::vector<Element>();
@@ -53,8 +54,8 @@ std::optional<double> leastWidth(const Element& root) {
   return (*upper - *lower).cwiseQuotient(*cells).minCoeff();
 }
 
-/// The greatest rho c / h, kg/(m^3 s), of a gas at the start of a scene and a cell: how fast sound crosses it. An
-/// exchange of momentum that is faster stops the gas within a cell, as a wall does. Infinite if it is not known.
+/// The largest initial rho c / h [kg/(m^3 s)] of any gas in any cell, a measure of how fast sound crosses the cell;
+/// infinite if it is not known. An exchange of momentum that is faster stops the gas within a cell, as a wall does.
 double fastestCrossing(const std::vector<euler::Settings>& gases, const Element& root) {
   const auto width = leastWidth(root);
   double greatest = width && *width > 0 ? 0 : std::numeric_limits<double>::infinity();
@@ -70,7 +71,7 @@ double fastestCrossing(const std::vector<euler::Settings>& gases, const Element&
   return greatest > 0 ? greatest : std::numeric_limits<double>::infinity();
 }
 
-/// Checks the exchange of momentum: between gas and bodies, only walls are available; bodies interact by their
+/// Checks the exchange of momentum. Between gas and bodies, only walls are available; between bodies, only their
 /// contacts.
 void checkMomentum(const ice::GasScene& scene, int solids, bool areRigid, const Element& root, const Element& tag,
                    Diagnostics& diagnostics) {
@@ -92,7 +93,8 @@ void checkMomentum(const ice::GasScene& scene, int solids, bool areRigid, const 
                      "does nothing between bodies: they interact through their <contact>");
 }
 
-/// The coefficients of heat; none if there are not as many as pairs, or a body has no specific heat.
+/// The coefficients of heat exchange; none if the scene does not give one for each pair, or if a body has no specific
+/// heat.
 ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gases, const Element& root,
                              const Element& tag, Diagnostics& diagnostics) {
   ice::HeatCoefficients heat = exchange.heatCoefficients();
@@ -114,7 +116,7 @@ void checkBurning(const ice::GasScene& scene, const Element& root, Diagnostics& 
     diagnostics.error(*gas.child("thin_walls"), "is not available with a burning body: remove it");
 }
 
-/// The index of a material among those of its kind; reports a name that is not among them.
+/// The index of a material among those of its kind. Reports a name that does not exist there.
 std::size_t placeOf(const std::string& name, const std::vector<std::string>& names,
                     const std::vector<std::string>& others, const char* kind, const char* otherKind,
                     const std::function<void(const std::string&)>& refuse) {
@@ -183,7 +185,7 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
                                   scene.gas.cfl, greatestCfl));
 }
 
-/// Notes that conditions on a part of a side apply only to the gas, and that bodies have those of the whole side.
+/// Notes that conditions on a part of a side apply only to the gas, and that those of the whole side apply to bodies.
 void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;

@@ -4,7 +4,7 @@
 
 namespace tushar::mpmice {
 
-/// The component of a gas and bodies that interact; if `areRigid`, the gas does not move the bodies.
+/// Describes the component for a gas and bodies that interact. If `areRigid`, the gas does not move the bodies.
 simulation::ComponentKind kind(bool areRigid);
 
 }  // namespace tushar::mpmice

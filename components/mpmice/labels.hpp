@@ -8,8 +8,9 @@
 
 namespace tushar::mpmice {
 
-/// Cell variables. Of the gas, c.density, c.momentum and c.totalEnergy of `euler` are per volume of the cell, not of
-/// the gas in it. What belongs to faces belongs to the lower faces of a cell, one number for each axis.
+/// Labels of cell variables. The gas variables of `euler`, c.density, c.momentum and c.totalEnergy, are per cell
+/// volume, not per volume of the gas in it. Quantities at faces belong to the lower faces of a cell, with one number
+/// for each axis.
 namespace c {
 using namespace euler::c;
 using namespace ice::c;
@@ -22,7 +23,8 @@ inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the 
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
     "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};
-/// A number on the walls at the lower faces of cells, and one on those at the upper faces.
+/// Labels of a number for the walls at the lower faces of a cell, one along each axis, and of one for those at the
+/// upper faces.
 template <int D>
 using OnWalls = std::array<CellLabel<Vec<D>>, 2>;
 template <int D>
@@ -30,11 +32,11 @@ inline constexpr OnWalls<D> wallPressure{{{"c.wallPressureBelow", "Pa", "pressur
                                           {"c.wallPressureAbove", "Pa", "pressure on walls at the upper faces"}}};
 template <int D>
 inline constexpr CellLabel<Vec<D>> wallFriction{"c.wallFriction", "N/m^3",
-                                                "force per volume of walls on the gas of the cell"};
-/// Variables of an implicit step.
+                                                "friction force of walls on the gas of the cell, per cell volume"};
+/// Labels of an implicit step.
 template <int D>
 inline constexpr euler::StateLabels<D> alone{
-    {"c.aloneDensity", "kg/m^3", "density of the gas, per volume of the gas"},
+    {"c.aloneDensity", "kg/m^3", "mass of the gas, per volume of the gas"},
     {"c.aloneMomentum", "kg/(m^2 s)", "momentum of the gas, per volume of the gas"},
     {"c.aloneEnergy", "J/m^3", "energy of the gas, per volume of the gas"}};
 template <int D>
@@ -42,25 +44,25 @@ inline constexpr OnWalls<D> wallSpeed{{{"c.wallSpeedBelow", "m/s", "speed of wal
                                        {"c.wallSpeedAbove", "m/s", "speed of walls at the upper faces"}}};
 template <int D>
 inline constexpr OnWalls<D> wallYield{
-    {{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration per pressure of walls at the lower faces"},
-     {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration per pressure of walls at the upper faces"}}};
-/// The state before small cells are merged with others.
+    {{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration of walls at the lower faces, per pressure"},
+     {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration of walls at the upper faces, per pressure"}}};
+/// Labels of the state after a step before small cells are merged with others.
 inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3",
-                                                   "before small cells are merged with others"};
+                                                   "density of the gas before small cells are merged with others"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m^2 s)",
-                                                    "before small cells are merged with others"};
+                                                    "momentum of the gas before small cells are merged with others"};
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3",
-                                                  "before small cells are merged with others"};
-/// For each of several gases, by its number: its mass per volume of the cell, its volume fraction of the gas and,
-/// before small cells are merged, its mass and volume per volume of the cell.
+                                                  "energy of the gas before small cells are merged with others"};
+/// Labels of each of several gases, with the index of the gas: its mass per cell volume, its fraction of the volume of
+/// all gases and, before small cells are merged, its mass and its volume, both per cell volume.
 inline constexpr std::array<CellLabel<double>, 3> massOfGas{{{"c.massOfGas0", "kg/m^3", "mass of the first gas"},
                                                              {"c.massOfGas1", "kg/m^3", "mass of the second gas"},
                                                              {"c.massOfGas2", "kg/m^3", "mass of the third gas"}}};
 inline constexpr std::array<CellLabel<double>, 3> shareOfGas{
-    {{"c.shareOfGas0", "1", "volume fraction of the first gas in the gas"},
-     {"c.shareOfGas1", "1", "volume fraction of the second gas in the gas"},
-     {"c.shareOfGas2", "1", "volume fraction of the third gas in the gas"}}};
+    {{"c.shareOfGas0", "1", "fraction of the gas volume that the first gas fills"},
+     {"c.shareOfGas1", "1", "fraction of the gas volume that the second gas fills"},
+     {"c.shareOfGas2", "1", "fraction of the gas volume that the third gas fills"}}};
 inline constexpr std::array<CellLabel<double>, 3> unsharedMass{
     {{"c.unsharedMass0", "kg/m^3", "mass of the first gas, before small cells are merged"},
      {"c.unsharedMass1", "kg/m^3", "mass of the second gas, before small cells are merged"},
@@ -69,7 +71,7 @@ inline constexpr std::array<CellLabel<double>, 3> unsharedVolume{
     {{"c.unsharedVolume0", "1", "volume of the first gas, before small cells are merged"},
      {"c.unsharedVolume1", "1", "volume of the second gas, before small cells are merged"},
      {"c.unsharedVolume2", "1", "volume of the third gas, before small cells are merged"}}};
-/// The exchange of the gas with bodies in a step, per volume of the cell, and since the start.
+/// Labels of what the gas transfers to bodies, per cell volume: in a step, and since the start.
 template <int D>
 inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "impulse of the gas on walls in the step"};
 inline constexpr CellLabel<double> work{"c.workOnBodies", "J/m^3", "work of the gas on walls in the step"};
@@ -91,13 +93,15 @@ inline constexpr CellLabel<Vec<D>> massFlow{
     "c.massFlow", "kg/m^3", "gas that passed bodies upwards through the open lower faces, per volume of a cell"};
 inline constexpr CellLabel<double> leakSinceStart{"c.leakSinceStart", "kg/m^3",
                                                   "gas that leaked through bodies in the cell"};
-/// Of a body that burns.
-inline constexpr CellLabel<double> reactantMass{"c.reactantMass", "kg/m^3", "of the body that burns"};
-inline constexpr CellLabel<double> reactantVolume{"c.reactantVolume", "1", "fraction of the cell that it fills"};
-inline constexpr CellLabel<double> reactantTemperature{"c.reactantTemperature", "K", "of the body that burns"};
+/// Labels of a body that burns.
+inline constexpr CellLabel<double> reactantMass{"c.reactantMass", "kg/m^3", "mass of the burning body per cell volume"};
+inline constexpr CellLabel<double> reactantVolume{"c.reactantVolume", "1",
+                                                  "fraction of the cell that the burning body fills"};
+inline constexpr CellLabel<double> reactantTemperature{"c.reactantTemperature", "K", "temperature of the burning body"};
 inline constexpr CellLabel<double> otherVolume{"c.otherVolume", "1", "fraction of the cell that other bodies fill"};
 inline constexpr CellLabel<double> hottestBody{
-    "c.hottestBody", "K", "greatest temperature of the bodies that fill more than a fifth of the cell; 0 without any"};
+    "c.hottestBody", "K",
+    "highest temperature of any body that fills more than a fifth of the cell; 0 if there is none"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> burnRate{
     "c.burnRate", "kg/(m^3 s)", "mass that burns at the lower faces, per cell volume; negative where the gas is above"};
@@ -105,22 +109,22 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> blowing{
     "c.blowing", "m/s", "speed of new gas away from walls at the lower faces; negative where the gas is above"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> recoil{"c.recoil", "Pa",
-                                          "of new gas on walls at the lower faces; negative where the gas is above"};
+inline constexpr CellLabel<Vec<D>> recoil{
+    "c.recoil", "Pa", "pressure of new gas on walls at the lower faces; negative where the gas is above"};
 inline constexpr CellLabel<double> burnRateWithin{
     "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a remnant of a body, per cell volume"};
-/// Of one with cracks.
-inline constexpr CellLabel<double> bodyPressure{"c.bodyPressure", "Pa", "mean pressure of the body that burns"};
-inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of its widest cracks"};
-inline constexpr CellLabel<double> burnMode{"c.burnMode", "1",
-                                            "how it burns: 0 not, 1 at its surface, 2 in cracks, 3 a flame comes"};
-inline constexpr CellLabel<double> burnPressure{"c.burnPressure", "Pa", "pressure at which it burns"};
-inline constexpr CellLabel<double> waited{"c.waited", "s", "time since a flame is beside the cell"};
-inline constexpr CellLabel<double> inductionTime{"c.inductionTime", "s", "time after which the cell burns"};
+/// Labels of a body with cracks that burns.
+inline constexpr CellLabel<double> bodyPressure{"c.bodyPressure", "Pa", "mean pressure of the burning body"};
+inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of the widest cracks of the burning body"};
+inline constexpr CellLabel<double> burnMode{
+    "c.burnMode", "1", "mode of burning: 0 none, 1 at the surface, 2 in cracks, 3 waiting for a flame"};
+inline constexpr CellLabel<double> burnPressure{"c.burnPressure", "Pa", "pressure at which the body burns"};
+inline constexpr CellLabel<double> waited{"c.waited", "s", "time for which a flame has been beside the cell"};
+inline constexpr CellLabel<double> inductionTime{"c.inductionTime", "s", "time that the cell waits before it burns"};
 inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "fraction of c.reactantMass that burns in the step"};
 inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};
 inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3",
-                                              "mass per volume of the gas; 0 where there is none"};
+                                              "mass per volume of the gas; 0 in cells without gas"};
 }  // namespace c
 
 namespace p {
@@ -128,13 +132,13 @@ using namespace mpm::solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
                                                 "edges of the box that represents the particle, in cells"};
-inline constexpr ParticleLabel<double> unburned{"p.unburned", "1", "remaining fraction of its initial mass"};
+inline constexpr ParticleLabel<double> unburned{"p.unburned", "1", "remaining fraction of the particle's initial mass"};
 }  // namespace p
 namespace g {
 using namespace mpm::solid::g;
 }
 
-/// Totals. Those of `euler` and of the solids that have the same name add up.
+/// Labels of totals. Those of `euler` and of the solids that have the same name add up.
 namespace total {
 inline constexpr ReductionLabel<Sum> gasMass{"GasMass", "kg", "mass of the gas"};
 inline constexpr ReductionLabel<VectorSum> gasMomentum{"GasMomentum", "kg m/s", "momentum of the gas"};
@@ -148,10 +152,10 @@ inline constexpr ReductionLabel<VectorSum> impulse{"GasImpulseOnBodies", "N s",
 inline constexpr ReductionLabel<Sum> work{"GasWorkOnBodies", "J", "work of the gas on walls since the start"};
 inline constexpr ReductionLabel<Sum> heat{"GasHeatToBodies", "J", "heat from the gas to bodies since the start"};
 inline constexpr ReductionLabel<Sum> burntMass{"BurntMass", "kg", "mass of bodies that burned since the start"};
-inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat released by this burning"};
+inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat released by burning since the start"};
 inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that leaked through bodies since the start"};
 inline constexpr ReductionLabel<Sum> mergedCells{
-    "MergedCells", "1", "number of cells whose gas was merged with that of a neighbour in the last step"};
+    "MergedCells", "1", "number of cells whose gas was merged with that of a neighbour in the step"};
 inline constexpr ReductionLabel<Minimum> leastFreeVolume{"LeastFreeVolume", "1",
                                                          "smallest open fraction of a cell that contains gas"};
 inline constexpr ReductionLabel<Minimum> leastMass{"LeastGasMass", "kg/m^3",

@@ -22,7 +22,7 @@ namespace tushar::mpmice {
 
 namespace {
 
-/// The body of advanceGas for a method and a number of gases that share cells.
+/// The function that advances the gas, for a method and a number of gases that share cells.
 template <int D>
 AdvanceGas<D> advanceBody(const euler::Method& method, std::size_t gases) {
   if (gases > 1) return chooseAdvanceGases<D>(method, gases);
@@ -106,7 +106,7 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials,
       computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
-/// The mass that burns in the step, according to the state at its start.
+/// Adds the tasks that find the mass that burns in the step, given the state at its start.
 template <int D>
 void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
                                    const ParticleLabel<double>& state) const {
@@ -129,7 +129,7 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
                  computes(c::burntShare));
 }
 
-/// The pressure at the end of the step, including that on walls.
+/// Adds the tasks for the pressure at the end of the step, including the pressure on walls.
 template <int D>
 void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.mass = 3, .room = 3};
@@ -145,7 +145,7 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                         withoutMaterial(all<WallPressures<D>>()));
 }
 
-/// The volume that bodies fill at the end of the step, and the volume that they swept.
+/// Adds the tasks for the volume that bodies fill at the end of the step, and the volume that they swept.
 template <int D>
 void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) const {
   if (burns())
@@ -239,7 +239,7 @@ void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) con
                    requiresOld(delT), modifies(c::totalEnergy));
 }
 
-/// Heat through the walls of bodies, according to the state at the start of the step.
+/// Adds the tasks for the heat that walls of bodies conduct, given the state at the start of the step.
 template <int D>
 void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 2, .room = 2};
@@ -252,7 +252,8 @@ void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& material
                         requiresOld(delT), modifies(p::temperature));
 }
 
-/// The exchange of the gas with bodies since the start, and its leak through them; each only if something needs it.
+/// Adds the tasks for sums since the start: of the exchange with bodies, and of the leak through them. Each sum is
+/// computed only if something needs it.
 template <int D>
 void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) const {
   tasks.perPatch("mpmice::addImpulse", addToSum<D, Vec<D>>, requiresNew(c::impulse<D>),
@@ -287,7 +288,8 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks) const {
   scheduleStepsOfDiffusion(tasks, 1);
 }
 
-/// The limit of a varying viscosity, together with this fraction of the speed of sound.
+/// Adds the task that limits the time step by a varying viscosity, together with the given fraction of the speed of
+/// sound.
 template <int D>
 void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (settings_.diffusion.acts() && settings_.diffusion.varies())

@@ -8,9 +8,10 @@
 
 namespace tushar::mpmice {
 
-/// A gas in the space around bodies of particles, in D dimensions: finite volumes with walls.
+/// A gas in the space around bodies of particles, in D dimensions, by finite volumes with walls.
 ///
-/// The schedule of the solids calls its functions, which add its tasks among theirs. mpmice.cpp has the schedule.
+/// The schedule of the solids calls the functions of this class, which add the tasks of the gas among those of the
+/// solids. They are in mpmice.cpp.
 template <int D>
 class GasAround : public mpm::solid::Surroundings {
  public:
@@ -29,11 +30,11 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleErrorEstimate(TaskList& tasks) const;
   void scheduleRefine(TaskList& tasks) const;
   bool isImplicit() const { return settings_.implicit.has_value(); }
-  /// Whether cells count the time until a flame has crossed them.
+  /// Whether each cell measures the time for which a flame has been beside it.
   bool waitsForFlames() const { return hasCracks() && settings_.burning->model.ddt()->induction; }
 
  private:
-  /// The gas in cells; `reads` gives the access.
+  /// The gas in cells; `reads` selects the kind of access.
   auto gasIn(auto reads, typename GasInCells<D>::Reach reach) const {
     reach.gases = settings_.gases.size();
     return all<GasInCells<D>>(reads, reach);
@@ -47,7 +48,7 @@ class GasAround : public mpm::solid::Surroundings {
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
   bool hasCracks() const { return burns() && settings_.burning->model.ddt(); }
-  /// Whether the burning body has strain energy, which is added to the gas.
+  /// Whether the burning body has strain energy, which must be added to the gas.
   bool keepsStrain(const Materials& materials) const;
   void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;
   void scheduleBoxes(TaskList& tasks, const Materials& materials) const;
@@ -61,7 +62,7 @@ class GasAround : public mpm::solid::Surroundings {
   ice::CarriedScalars scalars_;
 };
 
-/// Solids and a gas on one grid.
+/// Solids and a gas on the same grid.
 template <int D>
 class MpmIce : public Component {
  public:

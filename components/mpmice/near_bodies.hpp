@@ -8,7 +8,7 @@
 
 namespace tushar::mpmice {
 
-/// Layers of cells around a patch whose free volume determines the state of adjacent cells.
+/// Number of layers of cells around a cell whose free volumes affect the step of the cell.
 inline constexpr int nearLayers = 2;
 
 /// The index of a cell in a box, row by row.
@@ -19,12 +19,12 @@ std::size_t offsetIn(const Box& box, const Index<D>& cell) {
   return box.offset(wide);
 }
 
-/// The cells near bodies; all others contain only gas.
+/// Marks the cells near bodies; all other cells contain only gas.
 template <int D>
 class NearBodies {
  public:
-  /// The cells of a box within `layers` of a cell that has a free volume below 1 or no gas. Both views may end at the
-  /// grid.
+  /// Marks the cells of a box that are within `layers` layers of a cell with a free volume below 1, or without gas.
+  /// Both views may end at the sides of the grid.
   NearBodies(const Box& box, int layers, CellView<const double> free, CellView<const double> mass)
       : box_(box), is_near_(box.size(), 0) {
     forEach<D>(free.box().intersect(box.grown(layers, D)), [&](const Index<D>& cell) {

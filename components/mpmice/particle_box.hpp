@@ -6,27 +6,27 @@
 
 namespace tushar::mpmice {
 
-/// The box that represents a particle: its centre and its edges along the axes, in cells, from the lower corner of the
-/// cell in which the particle started the step.
+/// The box that represents a particle, by its centre and its edges along the axes, in cells. The centre is measured
+/// from the lower corner of the cell in which the particle started the step.
 template <int D>
 struct ParticleBox {
   Vec<D> middle, edges;
 
-  /// Length along an axis, in cells, of its part in the cell `k`.
+  /// Length along an axis of the part in cell `k`, in cells.
   double lengthIn(int axis, int k) const {
     const double lower = std::max(middle[axis] - 0.5 * edges[axis], double(k));
     const double upper = std::min(middle[axis] + 0.5 * edges[axis], k + 1.0);
     return std::max(0.0, upper - lower);
   }
-  /// Length along an axis of its part above the lower face of the cell `k`.
+  /// Length along an axis of the part above the lower face of cell `k`, in cells.
   double lengthAbove(int axis, int k) const {
     return std::clamp(middle[axis] + 0.5 * edges[axis] - k, 0.0, edges[axis]);
   }
-  /// Weight of the lower face of the cell `k` across an axis: 1 at the centre of the box, falling to 0 at a distance of
-  /// its length, so that adjacent boxes fully cover a face.
+  /// Weight of the lower face of cell `k` across an axis: 1 at the centre of the box, decreasing to 0 at a distance of
+  /// one edge of the box. So adjacent boxes fully cover a face.
   double hatAt(int axis, int k) const { return std::max(0.0, 1 - std::abs(k - middle[axis]) / edges[axis]); }
 
-  /// The cells that the box may reach into, or whose lower faces have a weight.
+  /// The cells into which the box may extend, or whose lower faces have a weight.
   Box reach() const {
     Box cells{{}, Index3::filled(1)};
     for (int d = 0; d < D; ++d) {
@@ -37,11 +37,12 @@ struct ParticleBox {
   }
 };
 
-/// Longest edge of a box, in cells; longer particles are treated as having this length.
+/// Longest edge of a box, in cells; longer particles are treated as if they had this length.
 inline constexpr double longestEdge = 1.5;
 
-/// Edges, in cells, of the box of a particle that started with the edges `size`, in cells, and was deformed by F: those
-/// of F along the axes if F does not rotate, otherwise |F S e_a| along each axis, scaled to the volume det F.
+/// The edges, in cells, of the box of a particle that had the edges `size`, in cells, before it was deformed by F. If F
+/// does not rotate, they are the edges stretched by F along the axes. Otherwise, they are |F S e_a| along each axis,
+/// scaled to the volume det F.
 template <int D>
 Vec<D> edgesOf(const Level& level, const Vec<D>& size, const mpm::solid::Matrix3& deformation) {
   Eigen::Matrix<double, D, D> edges;

@@ -11,11 +11,11 @@
 
 namespace tushar::mpmice {
 
-/// A body that is converted into a gas.
+/// A body that is converted into a gas, and the law by which it burns.
 struct Burning {
   ice::BurnModel model;
-  std::size_t body = 0;  ///< its index among the bodies
-  std::size_t gas = 0;   ///< that of the gas among several
+  std::size_t body = 0;  ///< index of the body among the bodies
+  std::size_t gas = 0;   ///< index of the gas among several gases
 };
 
 /// The internal variable of constitutive models with cracks, in which a body may burn.
@@ -23,8 +23,9 @@ inline constexpr std::string_view crackRadiusLabel = "p.crackRad";
 
 /// How the gas around bodies diffuses.
 struct GasDiffusion {
-  euler::VaryingDiffusion alone = {};         ///< of one gas; for several gases, only the eddies
-  std::vector<euler::Diffusion> ofEach = {};  ///< of several gases: a cell has the mean weighted by volume fractions
+  euler::VaryingDiffusion alone = {};  ///< diffusion of a single gas; for several gases, only the eddies
+  /// Diffusion of each of several gases; a cell has the mean, weighted by volume fractions.
+  std::vector<euler::Diffusion> ofEach = {};
 
   /// Whether viscosity and conductivity differ from cell to cell.
   bool varies() const { return alone.varies() || !ofEach.empty(); }
@@ -42,11 +43,11 @@ struct GasDiffusion {
 /// The gas around bodies, and its interaction with them.
 struct Settings {
   euler::Settings gas;
-  double referencePressure = 0;  ///< exerts no force on bodies, Pa
-  Vec3 gravity = Vec3::Zero();   ///< m/s²
-  ice::HeatCoefficients heat;    ///< of bodies in their order, then gases
-  bool thinWalls = false;        ///< bodies thinner than a cell also block the gas
-  bool areRigid = false;         ///< bodies keep their velocities, independently of the gas
+  double referencePressure = 0;  ///< pressure of the surroundings, which exerts no force on bodies [Pa]
+  Vec3 gravity = Vec3::Zero();   ///< gravity [m/s²]
+  ice::HeatCoefficients heat;    ///< coefficients of heat exchange: first the bodies in their order, then the gases
+  bool thinWalls = false;        ///< whether bodies thinner than a cell also block the gas
+  bool areRigid = false;         ///< whether bodies keep their velocities, unaffected by the gas
   GasDiffusion diffusion = {};
   std::optional<ice::IceSettings> implicit = {};  ///< if sound does not limit the steps
   ice::Heating heating = {};                      ///< of the gases
@@ -55,22 +56,22 @@ struct Settings {
   std::vector<ice::ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
 };
 
-/// The offset of thresholds for free volumes from round fractions. Such fractions occur when bodies are aligned with
-/// cells; with the offset, round-off does not affect on which side of a threshold they are.
+/// The offset of thresholds for free volumes from round fractions. Bodies that are aligned with cells leave such
+/// fractions free; with the offset, round-off does not decide on which side of a threshold they are.
 inline constexpr double offRoundShares = 1e-9;
-/// Smaller free volumes are treated as 0.
+/// The free volume below which a cell is treated as full.
 inline constexpr double leastFreeVolume = offRoundShares;
-/// With at least this free volume a cell is free of bodies.
+/// The free volume from which on a cell is treated as free of bodies.
 inline constexpr double wholeFreeVolume = 1 - offRoundShares;
-/// The gas of a cell with a smaller fraction of free volume is merged with that of a neighbour.
+/// The free volume below which the gas of a cell is merged with that of a neighbour.
 inline constexpr double smallFreeVolume = 0.5 - offRoundShares;
-/// The largest cfl, with which an open face lets out at most the contents of a half-full cell.
+/// The largest cfl. With it, an open face lets out at most the content of a half-full cell.
 inline constexpr double greatestCfl = 0.5;
-/// A smaller closed hole keeps its contents.
+/// The free volume below which a closed hole keeps its contents.
 inline constexpr double narrowFreeVolume = 0.2 - offRoundShares;
 
-/// The fraction of a cell that its gas fills, as a function of the free volume, which falls continuously to 0 where the
-/// cell is considered full.
+/// The fraction of a cell that its gas fills, as a function of the free volume. It decreases continuously to 0 at the
+/// free volume at which the cell counts as full.
 inline double roomOf(double free) {
   return free < 2 * leastFreeVolume ? std::max(0.0, 2 * (free - leastFreeVolume)) : free;
 }

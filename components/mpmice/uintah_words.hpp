@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// Variables that have another name here.
+/// Variables that have another name in Tushar.
 inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"},
                                                  {"vol_frac_CC", "c.freeVolume"},
                                                  {"totalMassBurned", "BurntMass"},
@@ -16,7 +16,7 @@ inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"
                                                  {"p.velocity+", "p.velocity"},
                                                  {"p.temperature+", "p.temperature"}};
 
-/// Variables of Uintah's MPMICE and its burn models that no task computes here.
+/// Variables of Uintah's MPMICE and its burn models that no task of Tushar computes.
 inline const std::vector<std::string> uintahsLabels{"Tdot",
                                                     "p.pressure",
                                                     "vel_CCTransposed",

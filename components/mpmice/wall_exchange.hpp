@@ -7,7 +7,7 @@
 
 namespace tushar::mpmice {
 
-/// The effect of the bodies on the gas in a step: walls, and the changes of free volume and faces.
+/// Views of what the bodies do to the gas in a step: by their walls, and by the change of free volumes and faces.
 template <int D>
 struct BodiesInStep {
   KnownWalls<D> walls;
@@ -21,17 +21,17 @@ struct BodiesInStep {
   }
 };
 
-/// The transfer from the gas of a cell to walls in a step, per volume of the cell.
+/// What the gas of a cell gives to walls in a step, per cell volume.
 template <int D>
 struct Given {
-  Vec<D> impulse = Vec<D>::Zero();  ///< N s/m³
-  double work = 0;                  ///< J/m³
+  Vec<D> impulse = Vec<D>::Zero();  ///< impulse per volume of the cell [N s/m³]
+  double work = 0;                  ///< work per volume of the cell [J/m³]
 };
 
-/// The smallest fraction that a donor keeps, so that round-off makes nothing negative.
+/// The smallest fraction of its gas that a donor keeps, so that round-off makes no amount negative.
 inline constexpr double roundOffOfShares = 1e-12;
 
-/// The exchange of the gas with walls in a step.
+/// Computes the exchange of the gas with walls in a step.
 template <int D>
 class WallExchange {
  public:
@@ -49,10 +49,10 @@ class WallExchange {
 
   const Level& level() const { return level_; }
   const euler::Gas& gas() const { return gas_; }
-  /// Rules for ghost states beyond the sides of the grid.
+  /// The rules for ghost states beyond the sides of the grid.
   const euler::GhostRules<D>& rules() const { return rules_; }
   const FreeSpace<D>& space() const { return space_; }
-  /// Open fraction of the lower face of a cell, which may be outside an upper side of the grid.
+  /// Open fraction of the lower face of a cell. The cell may be just beyond an upper side of the grid.
   double openShareOf(const NearBodies<D>& near, const Index<D>& cell, int axis) const {
     if (!near(cell)) return 1;
     const bool isUpperSide = !level_.isPeriodic(axis) && cell[axis] == level_.cells().upper[axis];
@@ -81,8 +81,8 @@ class WallExchange {
     return given;
   }
 
-  /// Mass of gas, per cell volume, that would flow up through the open fraction of the lower face of a cell if it moved
-  /// with the bodies there.
+  /// The mass of gas, per cell volume, that would flow up through the open fraction of the lower face of a cell if it
+  /// moved with the bodies at this face.
   double carriedThrough(const Index<D>& cell, int axis) const {
     const double open = space_.aperture(cell, axis, 0);
     if (!(open > 0)) return 0;
@@ -93,13 +93,15 @@ class WallExchange {
   }
 
  private:
-  /// For several gases, converts volume fractions into volumes, which fill the free volume of the cell after the step.
+  /// Converts the volume fractions of several gases into volumes, which together fill the free volume of the cell after
+  /// the step.
   void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
     for (std::size_t k = 0; k < held.shares.size(); ++k)
       held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
   }
 
-  /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step.
+  /// Adds the momentum of a wall's pressure, and its work at the mean of the wall's velocities before and after the
+  /// step.
   void push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
             const euler::StateViews<D, double>& held, Given<D>& given) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
@@ -113,7 +115,7 @@ class WallExchange {
     given.work -= work;
   }
 
-  /// Friction, and its work at the mean of the walls' velocities before and after the step.
+  /// Adds the momentum of friction, and its work at the mean of the walls' velocities before and after the step.
   void drag(const Index<D>& cell, const euler::StateViews<D, double>& held, Given<D>& given) const {
     const CellFriction<D> weights = frictionWeights<D>(level_, settings_, cells_, space_, nodes_, cell);
     for (int a = 0; a < D; ++a)
@@ -132,14 +134,14 @@ class WallExchange {
       }
   }
 
-  /// Whether bodies are at the face below a cell, or have passed through it.
+  /// Whether there are bodies at the lower face of a cell, or bodies have passed through it in the step.
   bool mayFlow(const Index<D>& face, int axis) const {
     const Index<D> below = face - Index<D>::unit(axis);
     return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
   }
 
-  /// The volume of gas, per cell volume, that follows walls up through the lower face of a cell: the volume that the
-  /// covered fraction of the face would sweep, minus the volume that bodies swept.
+  /// The volume of gas, per cell volume, that follows walls up through the lower face of a cell. It is the volume that
+  /// the covered fraction of the face would sweep, minus the volume that bodies swept.
   double followingUp(const Index<D>& above, int axis, double wallVelocity) const {
     return (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
            step_.swept[above][axis];
@@ -168,14 +170,15 @@ class WallExchange {
     }
   }
 
-  /// The contribution of a donor: a gas, and the fraction of the requested volume.
+  /// What a donor gives: its gas, and the fraction of the requested volume that it can give.
   struct Gift {
     Parcel<D> of;
     double share = 1;
   };
 
-  /// If a donor has too little gas, the rest comes from the neighbour with which it will be merged, if this is mostly
-  /// free. Elsewhere a donor gives of what it holds, as dense as the gas asked for, and at most all of it.
+  /// What a donor can give. A donor that is mostly free, or that will be merged with such a neighbour, gives all that
+  /// is requested; if it has too little, the neighbour supplies the rest. Any other donor gives gas of the requested
+  /// density, but at most all that it has.
   std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
     const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
     if (!wanted) return std::nullopt;
@@ -184,8 +187,8 @@ class WallExchange {
     if (!(mass > 0)) return std::nullopt;
     return Gift{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
   }
-  /// The mass that a donor would give through all its faces, kg/m³, and a little more: closed pores are included,
-  /// although they receive none.
+  /// The mass that a donor would give through all its faces [kg/m³]. It is an upper estimate: it includes closed pores,
+  /// which receive none.
   double massAskedOf(const Index<D>& donor) const {
     double mass = 0;
     for (int d = 0; d < D; ++d)
@@ -200,8 +203,7 @@ class WallExchange {
       }
     return (1 + roundOffOfShares) * mass;
   }
-  /// Whether this cell, or a neighbour with which it is merged (possibly across a corner), is mostly free after the
-  /// step.
+  /// Whether a cell is mostly free after the step, or will be merged with such a neighbour, possibly across a corner.
   bool isBesideRoom(const Index<D>& cell) const {
     const auto hasRoom = [&](const Index<D>& at) {
       return step_.newFree[at] >= smallFreeVolume && cells_.held.density[at] > 0;
@@ -211,8 +213,9 @@ class WallExchange {
     return any;
   }
 
-  /// The state of the donor's gas; if it has none, that of the receiver; if that has none either, the mean around the
-  /// donor. Where the donor has hardly room, some of both.
+  /// The state of the gas that a donor gives. It is that of the donor's gas or, if the donor has none, that of the
+  /// receiver's gas; if the receiver has none either, it is the mean around the donor. If the donor has almost no free
+  /// volume, it is a blend of the donor's and the receiver's.
   std::optional<Parcel<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
     const double room = space_.isEmpty(donor) ? 0 : roomOf(cells_.free[donor]) / cells_.free[donor];
     if (room == 1) return cells_.parcel(donor);
@@ -233,7 +236,7 @@ class WallExchange {
     mean.add(sum, 1.0 / count);
     return mean;
   }
-  /// `part` times the state of one cell, plus the rest of the state of another.
+  /// `part` times the state of the cell `of`, plus 1 - `part` times the state of the cell `rest`.
   Parcel<D> mixed(double part, const Index<D>& of, const Index<D>& rest) const {
     Parcel<D> sum;
     if (part > 0) sum.add(cells_.parcel(of), part);
@@ -241,7 +244,7 @@ class WallExchange {
     return sum;
   }
 
-  /// A hole in a body: it has little free volume, and no cell within two cells is mostly free.
+  /// Whether a cell is a hole in a body: it has little free volume, and no cell up to two cells away is mostly free.
   bool isClosedPore(const Index<D>& cell) const {
     if (!(step_.newFree[cell] < narrowFreeVolume)) return false;
     bool closed = true;

@@ -8,16 +8,17 @@
 
 namespace tushar::mpmice {
 
-/// Thickness of the layer of gas, in cells, that the velocity of a cell represents; a small cell is taken together with
-/// the neighbour with which it is merged.
+/// Thickness, in cells, of the layer of gas that the velocity of a cell represents. For a small cell, it includes the
+/// neighbour with which the cell is merged.
 inline double layerOf(double free) { return free < smallFreeVolume ? 1 + free : free; }
 
-/// The drag of the walls of a cell on its gas, at each face: viscosity times the area of the wall along its surface,
-/// divided by the distance to the middle of the gas, per volume of the cell.
+/// The drag of the walls of a cell on its gas, for each face, per cell volume: the viscosity times the area of the
+/// wall, divided by the distance from the wall to the middle of the gas. The area is measured along the surface of the
+/// body.
 template <int D>
 class CellFriction {
  public:
-  /// `massAt(face, axis)`: mass of the bodies at the face; a wall without mass causes no drag.
+  /// `massAt(face, axis)` is the mass of the bodies at the face; a wall without mass causes no drag.
   template <class MassAt>
   CellFriction(const Level& level, const FreeSpace<D>& space, const Index<D>& cell, double free, double viscosity,
                MassAt&& massAt)
@@ -38,12 +39,12 @@ class CellFriction {
     }
   }
 
-  /// Pa s/m² of all walls together; 0 without walls.
+  /// Sum of the drag of all walls [Pa s/m²]; 0 without walls.
   double all() const { return all_; }
-  /// The fraction of the friction at a face.
+  /// The fraction of the friction that acts at a face.
   double share(int axis, int side) const { return drag_[axis][side] > 0 ? drag_[axis][side] / all_ : 0; }
-  /// The component of a velocity along the walls: without the component into an oblique wall or, between walls, into
-  /// each of them.
+  /// The component of a velocity along the walls: without its component into an oblique wall or, between several walls,
+  /// into each of them.
   Vec<D> alongWalls(const Vec<D>& velocity) const {
     Vec<D> along = velocity - slip_ * velocity.dot(normal_) * normal_;
     for (int a = 0; a < D; ++a) along[a] -= (1 - slip_) * (share(a, 0) + share(a, 1)) * velocity[a];
@@ -57,7 +58,7 @@ class CellFriction {
   double all_ = 0;
 };
 
-/// The fractions of the friction at the faces of a cell with gas.
+/// Computes the drag of the walls of a cell with gas, and the fraction of it at each face.
 template <int D>
 CellFriction<D> frictionWeights(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                                 const FreeSpace<D>& space, const BodiesAtNodes<D>& bodies, const Index<D>& cell) {
@@ -68,7 +69,7 @@ CellFriction<D> frictionWeights(const Level& level, const Settings& settings, co
             return bodies.massAt(face, axis); }};
 }
 
-/// Friction of a step on the gas of a cell, N/m³ of the cell.
+/// Computes the friction force on the gas of a cell in a step, per cell volume [N/m³].
 template <int D>
 struct FrictionOfStep {
   const Level& level;
@@ -78,7 +79,7 @@ struct FrictionOfStep {
   const BodiesAtNodes<D>& bodies;
   double dt;
 
-  /// mu A dv / d, limited so that gas and walls do not overshoot a common velocity within the step.
+  /// The friction mu A dv / d of a cell, limited so that gas and walls do not pass a common velocity within the step.
   Vec<D> on(const Index<D>& cell) const {
     const CellFriction<D> weights = frictionWeights<D>(level, settings, cells, space, bodies, cell);
     if (!(weights.all() > 0)) return Vec<D>::Zero();
@@ -99,8 +100,8 @@ struct FrictionOfStep {
   }
 
  private:
-  /// Mass on which the friction of a cell acts, kg/m³; for a small cell, including that of the neighbour with most
-  /// mass.
+  /// The mass, per cell volume, on which the friction in a cell acts [kg/m³]. For a small cell, it includes that of the
+  /// larger neighbour with most mass.
   double massAbout(const Index<D>& cell) const {
     const double own = cells.held.density[cell];
     if (!(cells.free[cell] < smallFreeVolume)) return own;
@@ -115,7 +116,8 @@ struct FrictionOfStep {
   }
 };
 
-/// Finds the friction of walls on the gas of each cell from the velocities of both at the start of the step.
+/// Computes the friction of walls on the gas of each cell, from the velocities of gas and walls at the start of the
+/// step.
 template <int D>
 void computeWallFriction(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                          double dt, const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,

@@ -4,9 +4,9 @@
 
 namespace tushar::mpmice {
 
-/// The pressure behind the shock of a moving wall in a gas of any law, with a velocity jump of `closing`:
-/// e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends on the density alone, the
-/// second equation suffices. By bisection in the density, to round-off.
+/// The pressure behind the shock that a moving wall drives into a gas of any law, where the velocity jumps by
+/// `closing`: e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends only on the
+/// density, the second equation suffices. Solved by bisection in the density, to round-off.
 inline double shockPressure(const euler::Gas& gas, double density, double last, double closing) {
   const double before = gas.pressureOf(density, last), volume = 1 / density;
   const double energy = gas.energyOf(density, last) * volume;
@@ -27,8 +27,8 @@ inline double shockPressure(const euler::Gas& gas, double density, double last, 
   return behind(most);
 }
 
-/// The pressure in the fan behind a wall that recedes at `speed` [m/s]: dp = -rho c du, drho = -rho / c du, by the
-/// fourth-order Runge-Kutta method; 0 if no gas is left.
+/// The pressure in the fan behind a wall that recedes at `speed` [m/s]: dp = -rho c du, drho = -rho / c du, integrated
+/// by the fourth-order Runge-Kutta method; 0 if no gas is left.
 inline double fanPressure(const euler::Gas& gas, double density, double last, double speed) {
   constexpr int steps = 32;
   const bool isBarotropic = gas.isBarotropic();
@@ -53,10 +53,11 @@ inline double fanPressure(const euler::Gas& gas, double density, double last, do
   return gas.pressureOf(rho, of);
 }
 
-/// Pressure [Pa] of a gas on a wall that approaches it at the speed `closing` [m/s]: behind a shock if the wall
-/// approaches, behind a fan if it recedes, and p + p_inf = 0 if there is no gas left. The gas is given by its density
-/// and the last number of its primitive state. Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid
-/// Dynamics, 3rd ed., section 4.3, with the wall's speed given.
+/// Pressure [Pa] of a gas on a wall that approaches it at the speed `closing` [m/s]; a negative speed means that the
+/// wall recedes. The pressure is that behind a shock if the wall approaches, and that behind a fan if it recedes; where
+/// no gas is left, p + p_inf = 0. The gas is given by its density and the last component of its primitive state.
+/// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., section 4.3, with the speed
+/// of the wall given.
 inline double wallPressure(const euler::Gas& gas, double density, double last, double closing) {
   if (closing == 0) return gas.pressureOf(density, last);
   if (gas.law)

@@ -28,8 +28,8 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> p
 
 namespace {
 
-/// Whether Phi is given at a face of some cell, of any rank. A part of a side may be so small that only finer cells
-/// have a face in it.
+/// Whether phi is given at a face of any cell on any rank. A part of a side may be so small that only finer cells have
+/// a face in it.
 template <int D>
 bool keepsValueSomewhere(const RankPatches& patches, const mpi::Communicator& ranks) {
   bool keeps = false;
@@ -51,9 +51,9 @@ bool keepsValueSomewhere(const RankPatches& patches, const mpi::Communicator& ra
   return ranks.any(keeps);
 }
 
-/// If no face has a given value, the integral of f dV must equal the influx k dphi/dn dA that follows from the slopes
-/// at the faces; otherwise there is no solution (R. Courant & D. Hilbert, Methods of Mathematical Physics 1, V.14: a
-/// free constant is orthogonal to f).
+/// Throws NumericalError if there is no solution. If no face has a given value, a solution exists only if the integral
+/// of f dV equals the influx k dphi/dn dA that follows from the slopes at the faces. Source: R. Courant & D. Hilbert,
+/// Methods of Mathematical Physics 1, V.14 (a free constant is orthogonal to f).
 void refuseImbalance(const Level& level, const solvers::Outcome& outcome, double tolerance) {
   if (!(std::abs(outcome.unbalanced) > tolerance * outcome.loads)) return;
   const double excess = -outcome.unbalanced / (static_cast<double>(level.cells().size()) * level.cellVolume());

@@ -19,16 +19,16 @@ inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1",
 
 /// The `Poisson` section.
 struct Settings {
-  input::Expression coefficient{1.0};  ///< k
-  input::Expression source{0.0};       ///< f
+  input::Expression coefficient{1.0};  ///< coefficient k
+  input::Expression source{0.0};       ///< source f
   solvers::LinearSettings solver;
 };
 
-/// div(k grad phi) = f in D dimensions, by finite volumes, solved in every step with f at its end.
+/// div(k grad phi) = f in D dimensions, by finite volumes; each step solves it with f at the end of the step.
 ///
-/// At a face with `Phi` Dirichlet the value is kept, with Neumann the outward derivative; any other face lets no flux
-/// through. Where no face keeps a value, phi has mean 0, and a source that the faces do not balance is refused. The
-/// component to copy where a step needs a global solve.
+/// A face with a Dirichlet condition for `Phi` has the given value, one with a Neumann condition the given outward
+/// derivative; any other face has no flux. Without any Dirichlet condition, phi has mean 0, and a source that is not
+/// balanced by the faces is refused. This component is the template for methods whose steps need a global solve.
 template <int D>
 class Poisson : public Component {
  public:
@@ -41,11 +41,11 @@ class Poisson : public Component {
   Settings settings_;
 };
 
-/// phi = 0, the initial guess for the first solve. Throws InputError where k is not greater than 0.
+/// Sets phi = 0, the initial guess for the first solve. Throws InputError where k is not greater than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> phi);
 
-/// How the last solve went.
+/// References to the totals that report on the solve of a step.
 struct SolveTotals {
   Maximum &iterations, &finalResidual, &assembly, &preconditioner, &solution;
 
@@ -58,13 +58,14 @@ struct SolveTotals {
   }
 };
 
-/// Solves for phi in the cells of all patches, from the old one. Throws NumericalError if the solver gives up.
+/// Solves for phi in the cells of all patches, starting from the old phi. Throws NumericalError if the solver does not
+/// converge.
 template <int D>
 void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double time, double dt,
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            const SolveTotals& totals);
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::poisson

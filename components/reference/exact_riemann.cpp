@@ -15,7 +15,7 @@ double leastStiffnessOf(const RiemannProblem& problem) {
   return std::min(problem.gas.stiffness, problem.rightGas.value_or(problem.gas).stiffness);
 }
 
-/// The problem with the same waves in which the softer gas is an ideal one.
+/// Solves the problem with pressures p + p_inf of the softer gas, which makes that gas ideal; the waves are the same.
 RiemannSolution solveShifted(const RiemannProblem& problem) {
   const double shift = leastStiffnessOf(problem);
   const auto shifted = [&](RiemannState state) {
@@ -42,7 +42,7 @@ ExactRiemann::ExactRiemann(const RiemannProblem& problem) : problem_(problem), s
     throw std::invalid_argument(fmt::format("The axis of a Riemann problem must be 0, 1 or 2, not {}.", problem.axis));
   }
   if (!std::isfinite(problem.diaphragm)) {
-    throw std::invalid_argument("The diaphragm of a Riemann problem must be at a finite position.");
+    throw std::invalid_argument("The diaphragm of a Riemann problem is not at a finite position.");
   }
 }
 

@@ -23,10 +23,9 @@ const input::Schema<State>& stateSchema() {
           .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
           .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
           .value("velocity", &State::velocity, 0, "m/s", "u, along the normal")
-          .optional("gamma", &State::gamma, "1", "the value of this gas, if the two gases differ",
-                    input::greaterThan(1))
+          .optional("gamma", &State::gamma, "1", "value for this gas, if the two gases differ", input::greaterThan(1))
           .ours()
-          .optional("p_infinity", &State::pInfinity, "Pa", "the value of this gas, if the two gases differ",
+          .optional("p_infinity", &State::pInfinity, "Pa", "value for this gas, if the two gases differ",
                     input::nonNegative())
           .ours();
   return schema;
@@ -52,7 +51,7 @@ const input::Schema<RiemannSection>& riemannSchema() {
                  "direction of the tube; its length does not matter")
           .ours()
           .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m",
-                 "the gases meet where normal · x has this value at t = 0")
+                 "at t = 0, the gases meet where normal · x has this value")
           .ours()
           .optional(
               "mirror", &RiemannSection::mirror, "m",
@@ -64,13 +63,13 @@ const input::Schema<RiemannSection>& riemannSchema() {
   return schema;
 }
 
-/// The gas of one side.
+/// The law of the gas on one side.
 GasLaw gasOf(const State& side, const RiemannSection& read) {
   return {side.gamma.value_or(read.gamma), side.pInfinity.value_or(read.pInfinity)};
 }
 
-/// Length along the tube after which a periodic grid repeats, m; 0 if it never does. Throws
-/// std::invalid_argument where the axes do not agree.
+/// Length along the tube after which a periodic grid repeats [m]; 0 if it never does. Throws std::invalid_argument if
+/// this length differs from axis to axis.
 double periodAlong(const Vec3& normal, const grid::Level& level) {
   const grid::Domain& domain = level.domain();
   std::vector<double> lengths;

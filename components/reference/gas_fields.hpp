@@ -6,7 +6,7 @@
 
 namespace tushar::reference {
 
-/// A GasState as numbers that can be added: density, the three velocities, pressure, energy.
+/// A GasState as an array that can be added: density, the three velocities, pressure, energy.
 using Fields = Eigen::Array<double, 6, 1, Eigen::DontAlign>;
 
 inline Fields toFields(const GasState& state) {
@@ -19,16 +19,16 @@ inline GasState toState(const Fields& fields) {
   return {fields[0], fields.segment<3>(1).matrix(), fields[4], fields[5]};
 }
 
-/// Throws std::invalid_argument where upper < lower along an axis.
+/// Throws std::invalid_argument if upper < lower along any axis.
 void checkBox(const Vec3& lower, const Vec3& upper);
 
-/// A point of a quadrature rule on [0, 1]; the weights of a rule add up to 1.
+/// A point of a quadrature rule on [0, 1]; the weights of a rule sum to 1.
 struct QuadraturePoint {
   double at = 0, weight = 0;
 };
 
-/// The Gauss-Legendre rule with N points, of which `half` lists one of each pair and, last if N is odd, the middle:
-/// positions and weights on [-1, 1].
+/// The Gauss-Legendre rule with N points. `half` lists positions and weights on [-1, 1]: one point of each pair and,
+/// last if N is odd, the middle.
 template <std::size_t N>
 constexpr std::array<QuadraturePoint, N> gaussRule(const std::array<QuadraturePoint, (N + 1) / 2>& half) {
   std::array<QuadraturePoint, N> rule;

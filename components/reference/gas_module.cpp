@@ -12,7 +12,7 @@ using simulation::MeasuredError;
 
 namespace {
 
-/// Compares a component's gas with any exact solution.
+/// Compares the gas of a component with any exact solution.
 class GasError : public simulation::Analysis {
  public:
   GasError(std::string module, ReferencePointer exact, const GasSolution& solution)
@@ -75,7 +75,7 @@ std::vector<output::Array> GasError::exactProfile(const Level& level) const {
 
 bool isClose(double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); }
 
-/// A message if a gas is not among those of the scene; none if it is, or if the scene has no law.
+/// A message if the gases of the scene do not include `gas`; none if they do, or if the scene gives no law.
 std::string whyNotAmong(const std::vector<GasLaw>& scene, const GasLaw& gas) {
   const auto isIt = [&](const GasLaw& other) {
     return isClose(gas.gamma, other.gamma) && isClose(gas.stiffness, other.stiffness);

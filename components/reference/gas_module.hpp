@@ -14,17 +14,17 @@ namespace tushar::reference {
 
 using ReferencePointer = std::shared_ptr<const GasReference>;
 
-/// Makes the analysis that compares a component's gas with the solution that `build` makes for a grid, within a region
-/// if one is given. The analysis is refused, with an InputError of the module, for a component that solves for no gas
-/// or not for `gases`, and where `build` throws std::invalid_argument.
+/// Makes the analysis that compares a component's gas with a solution, which `build` makes for a grid, within a region
+/// if the tags give one. Throws InputError with the location of the module if the component solves for no gas or for
+/// other gases than `gases`, or if `build` throws std::invalid_argument.
 simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const grid::Level&)> build, const GasTags& tags,
                                         const std::vector<GasLaw>& gases, const input::Element& module);
 
-/// The gas of a solution that has one alone: that of the tags.
+/// The gas of a solution with a single gas, as given by the tags.
 inline std::vector<GasLaw> gasOfTags(const GasTags& read) { return {{read.gamma, read.pInfinity}}; }
 
-/// The module `name`: measures against the solution `build(read, level)` for the gases `gasesOf(read)`. `schema()`, of
-/// an S derived from GasTags, reads it and lives as long as the program.
+/// Describes the module `name`, which measures errors relative to the solution `build(read, level)` for the gases
+/// `gasesOf(read)`. `read` has a type S derived from GasTags; `schema()` reads it and lives as long as the program.
 template <class S, class Build, class GasesOf = decltype(&gasOfTags)>
 simulation::AnalysisKind gasModule(std::string name, std::string sentence, const input::Schema<S>& (*schema)(),
                                    Build build, GasesOf gasesOf = gasOfTags) {

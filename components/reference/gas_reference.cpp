@@ -15,13 +15,14 @@ namespace {
 constexpr double kTolerance = 1e-12;
 constexpr int kMostHalvings = 40;
 
-/// Means over a box, one axis inside the other.
+/// Computes means over a box by nested quadrature: the mean over each axis is a quadrature of the means over the later
+/// axes.
 class BoxMean {
  public:
   BoxMean(const GasReference& gas, const Vec3& lower, const Vec3& upper, double t)
       : gas_(gas), lower_(lower), upper_(upper), time_(t) {}
 
-  /// Mean over the axes from `axis` on, the earlier coordinates being those of `x`.
+  /// Mean over the axes from `axis` on; the coordinates along the earlier axes are those of `x`.
   Fields over(int axis, Vec3 x) const {
     if (axis == 3) return toFields(gas_.at(x, time_));
     if (upper_[axis] > lower_[axis]) return overPieces(axis, x);
@@ -43,8 +44,8 @@ class BoxMean {
     return sum / (upper_[axis] - lower_[axis]);
   }
 
-  /// Mean over [a, b], for which Gauss's rule gives `whole`. Halves the interval as long as this changes the mean over
-  /// the undivided piece, of which [a, b] is the part 2^-depth. Values too large for a number have no better mean.
+  /// Mean over [a, b]. `whole` is its value by Gauss's rule; [a, b] is the fraction 2^-depth of an undivided interval.
+  /// Halves [a, b] as long as this changes the mean over the undivided interval. Values that overflow are not refined.
   Fields adaptive(int axis, const Vec3& x, double a, double b, const Fields& whole, int depth) const {
     const double middle = 0.5 * (a + b);
     const Fields left = gauss(axis, x, a, middle);
@@ -55,7 +56,7 @@ class BoxMean {
     return 0.5 * (adaptive(axis, x, a, middle, left, depth + 1) + adaptive(axis, x, middle, b, right, depth + 1));
   }
 
-  /// The scale of an error: the field itself and, for velocities, also the speed of sound.
+  /// The scale to which errors are relative: the field itself; for velocities, also the speed of sound.
   static Fields sizes(const Fields& left, const Fields& right) {
     Fields size = left.abs() + right.abs();
     size.segment<3>(1) = size.segment<3>(1).maxCoeff() + std::sqrt(size[5]);

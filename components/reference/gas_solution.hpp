@@ -8,31 +8,31 @@
 
 namespace tushar::reference {
 
-/// The time at which errors are measured, s since the start of the run: then exact solutions are at t = 0. Set before
-/// the tasks run.
+/// The time at which errors are measured [s]. It is counted from the start of the run, where exact solutions have t =
+/// 0, and is set before the tasks run.
 struct Clock {
   double time = 0;
 };
 
-/// Error norms of a gas: one reduction per field.
+/// Labels of the error norms of a gas: one reduction per field.
 struct GasErrorLabels {
   ReductionLabel<Norm> density, velocity, pressure, energy;
 };
 
-/// Particles against the exact values at their positions.
+/// Errors of particles, relative to the exact values at their positions.
 inline constexpr GasErrorLabels particleError{
     {"ParticleError.density", "kg/m^3", "error of density at the particles"},
     {"ParticleError.velocity", "m/s", "magnitude of the velocity error at the particles"},
     {"ParticleError.pressure", "Pa", "error of pressure (without artificial viscosity) at the particles"},
     {"ParticleError.energy", "J/kg", "error of internal energy at the particles"}};
 
-/// Cell means against exact cell means; cells without gas count as 0.
+/// Errors of cell means, relative to exact cell means; cells without gas count as 0.
 inline constexpr GasErrorLabels cellError{{"CellError.density", "kg/m^3", "error of the mean density of cells"},
                                           {"CellError.velocity", "m/s", "error of the mean velocity of cells"},
                                           {"CellError.pressure", "Pa", "error of the mean pressure of cells"},
                                           {"CellError.energy", "J/kg", "error of the mean internal energy of cells"}};
 
-/// Errors of a gas against exact values: one norm per field.
+/// Error norms of a gas relative to exact values: one norm per field.
 struct ErrorNorms {
   Norm &density, &velocity, &pressure, &energy;
 
@@ -43,7 +43,7 @@ struct ErrorNorms {
             .energy = take(computes(labels->energy))};
   }
 
-  /// `weight`: of a cell, Level::weight().
+  /// Adds the errors of a cell, node or particle to the norms; `weight` is the weight of a cell, Level::weight().
   void add(const GasState& found, const GasState& exact, double weight = 1) const {
     density.add(found.density - exact.density, exact.density, weight);
     velocity.add((found.velocity - exact.velocity).norm(), exact.velocity.norm(), weight);
@@ -56,7 +56,7 @@ struct ErrorNorms {
 inline constexpr ReductionLabel<Norm> nodeError{
     "NodeError.density", "kg/m^3", "error of nodal mass divided by nodal volume, relative to the exact density"};
 
-/// The exact means over a cell of a grid.
+/// Computes the exact means over a cell of a grid.
 template <int D>
 GasState cellMean(const GasReference& exact, const Level& level, const Index<D>& cell, double time) {
   Vec<D> lower, upper;
@@ -70,18 +70,18 @@ GasState cellMean(const GasReference& exact, const Level& level, const Index<D>&
 /// Where a component can measure errors.
 enum class MeasuredPlace { particle, cell, node };
 
-/// A component that solves for a gas, and can measure how far its state is from an exact one.
+/// A component that solves for a gas and can measure the errors of the gas relative to an exact state.
 class GasSolution {
  public:
   virtual ~GasSolution() = default;
-  /// The gases; none if no such law describes the flow.
+  /// The laws of the gases; none if a GasLaw cannot describe them.
   virtual std::vector<GasLaw> gases() const = 0;
-  /// The places whose error labels scheduleMeasureError's tasks compute.
+  /// The places for which scheduleMeasureError adds tasks.
   virtual std::vector<MeasuredPlace> measuredPlaces() const {
     return {MeasuredPlace::particle, MeasuredPlace::cell, MeasuredPlace::node};
   }
-  /// Adds diagnostic tasks that compute the error labels of those places against `exact` at `clock`'s time; both must
-  /// outlive the task list.
+  /// Adds diagnostic tasks that compute the error labels of measuredPlaces relative to `exact` at the time of `clock`.
+  /// Both must outlive the task list.
   virtual void scheduleMeasureError(TaskList& tasks, const GasReference& exact, const Clock& clock) const = 0;
 };
 

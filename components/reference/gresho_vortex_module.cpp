@@ -11,8 +11,7 @@ struct GreshoSection : VortexTags {
 };
 const input::Schema<GreshoSection>& greshoSchema() {
   static const input::Schema<GreshoSection> schema =
-      vortexSchema<GreshoSection>("gresho",
-                                  "Errors relative to the Gresho vortex, at rest or carried by a uniform flow.")
+      vortexSchema<GreshoSection>("gresho", "Errors relative to the Gresho vortex, at rest or in a uniform flow.")
           .value("density", &GreshoSection::density, 1, "kg/m^3", "density everywhere", input::positive())
           .ours()
           .value("pressure", &GreshoSection::pressure, 5, "Pa", "pressure at the centre", input::positive())

@@ -11,8 +11,7 @@ struct VortexSection : VortexTags {
 };
 const input::Schema<VortexSection>& isentropicSchema() {
   static const input::Schema<VortexSection> schema =
-      vortexSchema<VortexSection>("isentropicVortex",
-                                  "Errors relative to a smooth vortex carried by a uniform flow (Shu).")
+      vortexSchema<VortexSection>("isentropicVortex", "Errors relative to a smooth vortex in a uniform flow (Shu).")
           .value("density", &VortexSection::density, 1, "kg/m^3", "density far away", input::positive())
           .ours()
           .value("pressure", &VortexSection::pressure, 1, "Pa", "pressure far away", input::positive())

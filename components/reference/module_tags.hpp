@@ -12,20 +12,20 @@
 
 namespace tushar::reference {
 
-/// The tags that all modules that measure a gas share.
+/// The tags that are common to all modules that measure a gas.
 struct GasTags {
   std::string name;
   double gamma = 1.4;
-  double pInfinity = 0;  ///< Pa; of a stiffened gas
+  double pInfinity = 0;  ///< p_inf of a stiffened gas [Pa]
   std::optional<Region> within;
 };
 
-/// `within`: a box.
+/// The schema of the tag `within`, a box in which errors are measured.
 const input::Schema<Region>& regionSchema();
 
 using input::memberOf;
 
-/// The schema of the module `name` with those tags; S is derived from GasTags.
+/// The schema of the module `name` with the tags of GasTags, from which S is derived.
 template <class S>
 input::Schema<S> gasSchema(const std::string& name, std::string_view sentence, double gamma = 1.4) {
   return input::Schema<S>("Module", sentence)
@@ -36,34 +36,34 @@ input::Schema<S> gasSchema(const std::string& name, std::string_view sentence, d
       .ours();
 }
 
-/// The tags that the modules of vortices share.
+/// The tags that are common to the modules of vortices.
 struct VortexTags : GasTags {
   int axis = 2;
   Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
 };
 
-/// The schema of the module `name` with those tags; S is derived from VortexTags.
+/// The schema of the module `name` with the tags of VortexTags, from which S is derived.
 template <class S>
 input::Schema<S> vortexSchema(const std::string& name, std::string_view sentence) {
   return gasSchema<S>(name, sentence)
       .required("centre", memberOf<S>(&VortexTags::centre), "m", "centre of the vortex at t = 0")
       .ours()
       .value("velocity", memberOf<S>(&VortexTags::velocity), Vec3::Zero(), "m/s",
-             "velocity of the flow that carries the vortex")
+             "velocity of the flow in which the vortex moves")
       .ours()
       .template choice<int>("axis", memberOf<S>(&VortexTags::axis), {{"x", 0}, {"y", 1}, {"z", 2}}, 2,
                             "the axis of rotation")
       .ours();
 }
 
-/// The tags that the modules of flows around a centre share.
+/// The tags that are common to the modules of flows around a centre.
 struct RadialTags : GasTags {
   double density = 1, pressure = 0;
   Vec3 centre = Vec3::Zero();
 };
 
-/// The schema of the module `name` with those tags; S is derived from RadialTags, and `centre` describes what is at the
-/// centre.
+/// The schema of the module `name` with the tags of RadialTags, from which S is derived. `centre` is the description of
+/// the centre.
 template <class S>
 input::Schema<S> radialSchema(const std::string& name, std::string_view sentence, const std::string& centre,
                               double gamma = 1.4) {
@@ -77,11 +77,11 @@ input::Schema<S> radialSchema(const std::string& name, std::string_view sentence
       .ours();
 }
 
-/// The path of the vortex on a grid, which may be periodic. Throws std::invalid_argument where the plane in which it
-/// turns is not in the grid.
+/// The path of the vortex on a grid, which may be periodic. Throws std::invalid_argument if the grid does not use both
+/// axes of the plane in which the vortex turns.
 MovingFrame frameOf(const VortexTags& tags, const grid::Level& level);
 
-/// Fills the settings that the problems of all vortices share from the tags of S.
+/// Makes the problem of a vortex, with the settings that all vortices have in common, from the tags of S.
 template <class Problem, class S>
 Problem vortexProblem(const S& read, const grid::Level& level) {
   Problem problem;
@@ -94,7 +94,7 @@ Problem vortexProblem(const S& read, const grid::Level& level) {
   return problem;
 }
 
-/// 1 along the axes of the grid, 0 along those left out.
+/// 1 along the axes that the grid uses, 0 along the others.
 Vec3 axesOf(const grid::Level& level);
 
 }  // namespace tushar::reference

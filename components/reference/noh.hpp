@@ -4,25 +4,25 @@
 
 namespace tushar::reference {
 
-/// Cold gas that falls into a plane, a line or a point.
+/// Cold gas that converges on a plane, a line or a point.
 struct NohProblem {
-  double density = 1;          ///< at t = 0, kg/m^3
-  double speed = 1;            ///< inwards, m/s
-  double pressure = 0;         ///< at t = 0, Pa; small beside density speed²
+  double density = 1;          ///< density at t = 0 [kg/m^3]
+  double speed = 1;            ///< inward speed [m/s]
+  double pressure = 0;         ///< pressure at t = 0 [Pa]; negligible compared with density speed²
   double gamma = 5.0 / 3;      ///< ratio of specific heats
-  Vec3 centre = Vec3::Zero();  ///< m
-  Vec3 round = Vec3(1, 0, 0);  ///< 1 along the axes that the distance from the centre is taken in: 1, 2 or 3 of them
+  Vec3 centre = Vec3::Zero();  ///< centre [m]
+  Vec3 round = Vec3(1, 0, 0);  ///< 1 along the 1, 2 or 3 axes in which the distance from the centre is measured
 };
 
 /// The exact solution of Noh's problem in d = 1, 2 or 3 dimensions: a shock of speed s = (gamma-1)/2 u0 runs outwards.
 ///
-/// Behind it the gas is at rest with rho0 ((gamma+1)/(gamma-1))^d and p = (gamma-1)/2 rho u0²; ahead of it, at a
-/// distance r, it still falls with u0 and has rho0 (1 + u0 t / r)^(d-1). A pressure at the start is carried along with
-/// p / rho^gamma and otherwise without effect: the solution is that of cold gas. Source: W. F. Noh, J. Comput. Phys. 72
-/// (1987) 78.
+/// Behind the shock, the gas is at rest with density rho0 ((gamma+1)/(gamma-1))^d and p = (gamma-1)/2 rho u0². Ahead of
+/// it, the gas still moves inwards with u0, and has the density rho0 (1 + u0 t / r)^(d-1) at a distance r. An initial
+/// pressure is transported with constant p / rho^gamma and has no other effect, so the solution is that of cold gas.
+/// Source: W. F. Noh, J. Comput. Phys. 72 (1987) 78.
 class Noh : public RadialReference {
  public:
-  /// Throws std::invalid_argument where a setting is out of range.
+  /// Throws std::invalid_argument if a setting is out of range.
   explicit Noh(const NohProblem& problem);
 
   double shockRadius(double t) const override { return 0.5 * (problem_.gamma - 1) * problem_.speed * t; }

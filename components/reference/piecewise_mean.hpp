@@ -10,28 +10,29 @@ namespace tushar::reference {
 /// A plane across which fields or their slopes jump.
 struct Plane {
   static constexpr bool curved = false;
-  Vec3 normal;          ///< of any length but 0
+  Vec3 normal;          ///< normal of any length except 0
   double distance = 0;  ///< the plane is where normal . x = distance
 
-  /// Whether it runs through the inside of the box [lower, upper], m.
+  /// Whether the plane passes through the interior of the box [lower, upper] [m].
   bool cuts(const Vec3& lower, const Vec3& upper) const;
-  /// Adds the positions along `axis` where it enters or leaves the rest of the box: that part of it whose earlier
-  /// coordinates are those of `x`.
+  /// Adds the positions along `axis` where the plane enters or leaves the rest of the box. The rest is the part of the
+  /// box whose coordinates along the earlier axes are those of `x`.
   void addBreaks(int axis, const Vec3& lower, const Vec3& upper, const Vec3& x, std::vector<double>& breaks) const;
 };
 
-/// A sphere, or a circle or a pair of points drawn out along the other axes, across which fields or their slopes jump.
+/// A sphere across which fields or their slopes jump. With fewer axes in `round`, it is a circle or a pair of points,
+/// extended along the other axes.
 struct Sphere {
   static constexpr bool curved = true;
-  Vec3 centre;        ///< m
-  double radius = 0;  ///< m
-  Vec3 round;         ///< 1 along the axes that count, 0 along the others
+  Vec3 centre;        ///< centre [m]
+  double radius = 0;  ///< radius [m]
+  Vec3 round;         ///< 1 along the axes in which the distance from the centre is measured, 0 along the others
 
   bool cuts(const Vec3& lower, const Vec3& upper) const;
   void addBreaks(int axis, const Vec3& lower, const Vec3& upper, const Vec3& x, std::vector<double>& breaks) const;
 };
 
-/// Means over a box of a gas that is smooth except for some surfaces (Plane or Sphere), one axis inside the other.
+/// Means over a box of a gas that is smooth except at some surfaces (Plane or Sphere), by nested quadrature.
 template <class Surface>
 class PiecewiseMean {
  public:
@@ -42,7 +43,7 @@ class PiecewiseMean {
       if (surface.cuts(lower, upper)) surfaces_.push_back(surface);
   }
 
-  /// Mean over the axes from `axis` on, the earlier coordinates being those of `x`.
+  /// Mean over the axes from `axis` on; the coordinates along the earlier axes are those of `x`.
   Fields over(int axis, Vec3 x) const {
     if (axis == 3) return toFields(gas_.at(x, time_));
     if (surfaces_.empty() && upper_[axis] > lower_[axis]) return overWhole(axis, x);
@@ -80,8 +81,8 @@ class PiecewiseMean {
     return sum / (upper_[axis] - lower_[axis]);
   }
 
-  /// The point after the substitution x = s²(3 - 2s), dx = 6s(1 - s) ds: a function that behaves like a root of x at an
-  /// end is smooth in s.
+  /// The quadrature point after the substitution x = s²(3 - 2s), dx = 6s(1 - s) ds, which makes a function smooth in s
+  /// if it behaves like a square root of x at an end.
   static QuadraturePoint smoothEnds(const QuadraturePoint& point) {
     const double s = point.at;
     return {s * s * (3 - 2 * s), 6 * s * (1 - s) * point.weight};
@@ -93,10 +94,10 @@ class PiecewiseMean {
   double time_;
 };
 
-/// Mean of each field over the box [lower, upper] (m) at time `t` (s) of a gas that is smooth except for `surfaces`; an
-/// axis with no extent is a point. Gauss-Legendre with 5 points per axis, in a box that a surface cuts 8 in each piece:
-/// exact for polynomials cut by planes up to degree 13 over all axes, to about 1e-8 of what jumps where spheres cut.
-/// Throws std::invalid_argument where upper < lower.
+/// Mean of each field over the box [lower, upper] [m] at time `t` [s], for a gas that is smooth except at `surfaces`.
+/// Along an axis without extent, the box is a point. Gauss-Legendre with 5 points per axis; in a box that a surface
+/// cuts, with 8 points in each piece. For planes, it is exact for polynomials up to degree 13 over all axes; for
+/// spheres, the error is about 1e-8 of the jump. Throws std::invalid_argument if upper < lower.
 template <class Surface>
 GasState piecewiseMean(const GasReference& gas, const std::vector<Surface>& surfaces, const Vec3& lower,
                        const Vec3& upper, double t) {

@@ -15,8 +15,8 @@ namespace {
 constexpr double kRoundOff = 2 * std::numeric_limits<double>::epsilon();
 constexpr int kMostIterations = 500;
 
-/// One side, seen so that its wave runs to the left: the right side is mirrored, u -> -u. Its own pressure includes the
-/// stiffness; pressures that are passed in do not.
+/// One side of the problem, oriented so that its wave runs to the left; the right side is mirrored, u -> -u. The
+/// pressure of the side includes the stiffness; pressures passed to its functions do not.
 struct Side {
   double density, velocity, pressure, gamma, stiffness;
 
@@ -28,17 +28,17 @@ struct Side {
         stiffness(gas.stiffness) {}
 
   double soundSpeed() const { return density > 0 ? std::sqrt(gamma * pressure / density) : 0; }
-  /// Speed at which the gas expands where there is no pressure, Toro (4.77).
+  /// Speed at which the gas expands into vacuum, Toro (4.77).
   double front() const {
     return stiffness > 0 ? velocity - velocityChange(0) : velocity + 2 * soundSpeed() / (gamma - 1);
   }
-  /// (gamma - 1) / (2 gamma): c ~ p^exponent along an isentrope.
+  /// The exponent (gamma - 1) / (2 gamma): c ~ p^exponent along an isentrope.
   double exponent() const { return (gamma - 1) / (2 * gamma); }
-  /// A and B of Toro (4.8).
+  /// The constants A and B of Toro (4.8).
   double a() const { return 2 / ((gamma + 1) * density); }
   double b() const { return (gamma - 1) / (gamma + 1) * pressure; }
 
-  /// Velocity lost on the way to pressure p, Toro (4.6)-(4.7).
+  /// Decrease of the velocity between this side and a state of pressure `outside`, Toro (4.6)-(4.7).
   double velocityChange(double outside) const {
     const double p = outside + stiffness;
     if (p > pressure) return (p - pressure) * std::sqrt(a() / (p + b()));
@@ -46,14 +46,14 @@ struct Side {
     return 2 * soundSpeed() / (gamma - 1) * std::expm1(exponent() * std::log(p / pressure));
   }
 
-  /// d velocityChange / dp, Toro (4.37); p > 0.
+  /// The derivative of velocityChange with respect to the pressure, Toro (4.37), for p > 0.
   double slope(double outside) const {
     const double p = outside + stiffness;
     if (p > pressure) return std::sqrt(a() / (p + b())) * (1 - 0.5 * (p - pressure) / (p + b()));
     return std::pow(p / pressure, exponent() - 1) * soundSpeed() / (gamma * pressure);
   }
 
-  /// Toro (4.50) and (4.53).
+  /// The density between the wave and the contact, Toro (4.50) and (4.53).
   double starDensity(double outside) const {
     const double p = outside + stiffness;
     if (p <= pressure) return pressure > 0 ? density * std::pow(p / pressure, 1 / gamma) : density;
@@ -61,7 +61,7 @@ struct Side {
     return density * (p + ratio * pressure) / (ratio * p + pressure);
   }
 
-  /// The wave that leads to pressure p and velocity u, Toro (4.52), (4.54)-(4.55).
+  /// The wave to a state of pressure `outside` and velocity `u`, Toro (4.52), (4.54)-(4.55).
   RiemannWave wave(double outside, double u) const {
     const double p = outside + stiffness;
     if (p > pressure) {
@@ -75,7 +75,7 @@ struct Side {
 
   RiemannWave waveIntoVacuum() const { return {WaveKind::rarefaction, velocity - soundSpeed(), front()}; }
 
-  /// Inside the rarefaction, Toro (4.56).
+  /// The state inside the rarefaction, Toro (4.56).
   RiemannState inFan(double xi) const {
     const double sound = soundSpeed();
     const double ratio = 2 / (gamma + 1) * (1 + 0.5 * (gamma - 1) * (velocity - xi) / sound);
@@ -123,7 +123,7 @@ void checkProblem(const RiemannState& left, const RiemannState& right, const Gas
   }
 }
 
-/// Newton's method, kept inside a bracket, for the pressure at which both sides have the same velocity.
+/// Solves for the pressure at which both sides have the same velocity, by Newton's method within a bracket.
 class StarPressure {
  public:
   StarPressure(const Side& left, const Side& right) : left_(left), right_(right) {}
@@ -138,12 +138,13 @@ class StarPressure {
 
  private:
   bool isOneIdealGas() const { return left_.gamma == right_.gamma && left_.stiffness == 0 && right_.stiffness == 0; }
-  /// Toro (4.5): increasing and concave in p.
+  /// The difference of the velocities that both sides have at the pressure p, Toro (4.5); it is increasing and concave
+  /// in p.
   double mismatch(double p) const {
     return left_.velocityChange(p) + right_.velocityChange(p) - (right_.velocity + left_.velocity);
   }
 
-  /// Toro (4.46), exact for two rarefactions.
+  /// The exact pressure between two rarefactions, Toro (4.46).
   double betweenRarefactions() const {
     const double z = left_.exponent();
     const double closing = 0.5 * (left_.gamma - 1) * (left_.velocity + right_.velocity);
@@ -153,7 +154,8 @@ class StarPressure {
     return left_.pressure * std::pow((cl + cr + closing) / scale, 1 / z);
   }
 
-  /// A pressure above p*: the ram pressure of the lighter gas, raised until it stops the approach.
+  /// An upper bound on p*: the ram pressure of the lighter gas, increased until the two gases stop approaching each
+  /// other.
   double upperBound() const {
     const double most = std::max(left_.pressure, right_.pressure);
     const double closing = std::max(0.0, left_.velocity + right_.velocity);
@@ -176,7 +178,8 @@ class StarPressure {
     return p;
   }
 
-  /// Newton's step, or the bracket's middle where that leaves the bracket or does not halve the last step.
+  /// Newton's step, or the middle of the bracket if Newton's step leaves the bracket or is longer than half of the
+  /// previous step.
   double step(double p, double previousStep) {
     const double f = mismatch(p);
     if (f == 0) return p;
@@ -213,7 +216,7 @@ void fillStar(RiemannSolution& s, const Side& left, const Side& right) {
   s.rightWave = mirrored(right.wave(p, -s.starVelocity));
 }
 
-/// The state between a side's undisturbed gas and the contact, at `xi` in the view of that side.
+/// The state between the undisturbed gas of a side and the contact, at `xi` as seen from this side.
 RiemannState behindHead(const Side& side, const RiemannWave& wave, double xi, const RiemannState& star) {
   const bool fan = side.density > 0 && wave.kind == WaveKind::rarefaction && xi < wave.tail;
   return fan ? side.inFan(xi) : star;

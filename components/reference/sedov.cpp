@@ -10,7 +10,7 @@ namespace tushar::reference {
 
 namespace {
 
-/// The table ends where gamma w - 1 has fallen by a factor of about exp(-kDepth), where the density is negligible.
+/// The table ends where gamma w - 1 has decreased by a factor of about exp(-kDepth), where the density is negligible.
 constexpr double kDepth = 60;
 constexpr int kSteps = 16000;
 
@@ -26,9 +26,9 @@ Sedov::Sedov(const SedovProblem& problem) : RadialReference(problem.centre, prob
   alpha_ = findAlpha();
 }
 
-/// d ln y / d ln lambda = gamma N / M and d ln G / d ln lambda = (w' + d w) / (1 - w) with y = gamma w - 1,
-/// N = w/2 (d + 2 - (2 + d (gamma-1)) w) and M = gamma (gamma-1)/2 w² - (1-w) y: mass and momentum, the pressure
-/// being that of the energy integral.
+/// d ln y / d ln lambda = gamma N / M and d ln G / d ln lambda = (w' + d w) / (1 - w) with y = gamma w - 1, N = w/2 (d
+/// + 2 - (2 + d (gamma-1)) w) and M = gamma (gamma-1)/2 w² - (1-w) y. These are the equations of mass and momentum,
+/// with the pressure from the energy integral.
 Sedov::Shape Sedov::slope(const Shape& at) const {
   const double gamma = problem_.gamma, d = dimension();
   const double y = std::exp(at.y), w = (1 + y) / gamma;
@@ -37,7 +37,7 @@ Sedov::Shape Sedov::slope(const Shape& at) const {
   return {gamma * n / m, (y * n / m + d * w) / (1 - w)};
 }
 
-/// By the classical Runge-Kutta method.
+/// Tabulates the solution by the classical Runge-Kutta method.
 void Sedov::tabulate() {
   const double gamma = problem_.gamma;
   step_ = -kDepth / (2 + dimension() / (gamma - 1)) / kSteps;
@@ -53,7 +53,7 @@ void Sedov::tabulate() {
   }
 }
 
-/// Cubic interpolation between nodes; constant inside the last one.
+/// Interpolates cubically between nodes. Further inwards than the last node, the values are constant.
 Sedov::Shape Sedov::shapeAt(double logLambda) const {
   const double place = std::min(logLambda / step_, static_cast<double>(kSteps));
   const auto k = std::min(static_cast<std::size_t>(place), nodes_.size() - 2);
@@ -67,14 +67,15 @@ Sedov::Shape Sedov::shapeAt(double logLambda) const {
   return {cubic(&Shape::y), cubic(&Shape::density)};
 }
 
-/// p / (rho0 R'²) = lambda² G C.
+/// The pressure p / (rho0 R'²) = lambda² G C.
 double Sedov::pressureShape(double logLambda, const Shape& shape) const {
   const double gamma = problem_.gamma, w = (1 + std::exp(shape.y)) / gamma;
   return 0.5 * (gamma - 1) * w * w * (1 - w) * std::exp(2 * logLambda + shape.density - shape.y);
 }
 
-/// E = alpha rho0 R^(d+2) / t²: alpha = A (2/(d+2))² int (G lambda² w² / 2 + p / (gamma-1)) lambda^d d ln lambda, A the
-/// area of the unit sphere, by Simpson's rule; further inwards there is only pressure.
+/// Computes alpha in E = alpha rho0 R^(d+2) / t²: alpha = A (2/(d+2))² int (G lambda² w² / 2 + p / (gamma-1)) lambda^d
+/// d ln lambda, where A is the area of the unit sphere, by Simpson's rule. Further inwards than the last node, only the
+/// pressure contributes.
 double Sedov::findAlpha() const {
   const double gamma = problem_.gamma, d = dimension();
   const auto density = [&](int k) {

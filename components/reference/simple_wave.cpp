@@ -40,7 +40,7 @@ double samplePoint(const SimpleWaveProblem& problem, int k) {
   return problem.lower + (problem.upper - problem.lower) * k / kSamples;
 }
 
-/// Least value of `f` on [a, b], where it has one minimum (golden section).
+/// Smallest value of `f` on [a, b], by golden-section search; `f` has one minimum there.
 template <class F>
 double leastValue(const F& f, double a, double b) {
   const double golden = 0.5 * (std::sqrt(5.0) - 1);
@@ -76,12 +76,12 @@ void SimpleWave::checkProfile() const {
   }
 }
 
-/// u + c where the profile starts.
+/// The signal speed u + c at the point where a characteristic starts.
 double SimpleWave::signalSpeed(double start) const {
   return problem_.soundSpeed + 0.5 * (problem_.gamma + 1) * problem_.velocity(start);
 }
 
-/// d(u + c)/dx, by central differences of fourth order.
+/// The slope d(u + c)/dx, by central differences of fourth order.
 double SimpleWave::signalSlope(double start) const {
   const double d = differenceStep_;
   const double near = signalSpeed(start + d) - signalSpeed(start - d);
@@ -139,7 +139,7 @@ GasState SimpleWave::at(const Vec3& x, double t) const {
   return stateOf(problem_.velocity(foot(x[problem_.axis], t)));
 }
 
-/// The state where the velocity is `u`.
+/// The state in which the velocity is `u`.
 GasState SimpleWave::stateOf(double u) const {
   const double gamma = problem_.gamma;
   const double c0 = problem_.soundSpeed;

@@ -8,13 +8,15 @@ namespace tushar::reference {
 
 /// An isentropic wave that runs towards larger x into gas at rest.
 struct SimpleWaveProblem {
-  std::function<double(double)> velocity;  ///< u(x, 0) along `axis`, m/s, smooth and defined for every x (m)
-  double density = 1;                      ///< rho0 of the gas at rest, kg/m^3
-  double soundSpeed = 1;                   ///< c0 of the gas at rest, m/s
-  double gamma = 1.4;                      ///< ratio of specific heats
-  double lower = 0;                        ///< where the profile is searched for its steepest fall, m
-  double upper = 1;                        ///< end of that interval, m
-  int axis = 0;                            ///< 0, 1 or 2
+  /// Initial velocity u(x, 0) along `axis` [m/s]; smooth and defined for every x [m].
+  std::function<double(double)> velocity;
+  double density = 1;     ///< rho0 of the gas at rest [kg/m^3]
+  double soundSpeed = 1;  ///< c0 of the gas at rest [m/s]
+  double gamma = 1.4;     ///< ratio of specific heats
+  /// Start of the interval that is searched for the steepest descent of u + c [m].
+  double lower = 0;
+  double upper = 1;  ///< end of that interval [m]
+  int axis = 0;      ///< axis of the wave: 0, 1 or 2
 };
 
 /// The exact solution of a simple wave, until it breaks.
@@ -24,21 +26,22 @@ struct SimpleWaveProblem {
 /// Source: G. B. Whitham, Linear and Nonlinear Waves, section 6.8.
 class SimpleWave : public GasReference {
  public:
-  /// Throws std::invalid_argument where a setting is out of range, or where the profile is not finite or so negative
-  /// that c <= 0 within [lower, upper].
+  /// Throws std::invalid_argument if a setting is out of range, or if the profile within [lower, upper] is not finite
+  /// or so negative that c <= 0.
   explicit SimpleWave(SimpleWaveProblem problem);
 
-  /// Throws std::invalid_argument where t < 0, and std::domain_error, naming the breaking time, from then on.
+  /// Throws std::invalid_argument if t < 0, and std::domain_error, which names the breaking time, if the wave has
+  /// broken.
   GasState at(const Vec3& x, double t) const override;
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
   bool holdsAt(double t) const override { return t >= 0 && t < breakingTime_; }
 
-  /// First time (s) at which characteristics meet, -1 / min d(u + c)/dx over [lower, upper]; infinite if they never do.
-  /// The slope is differenced, so it is good to about 1e-8 for profiles wider than 1/200 of that interval.
+  /// First time [s] at which characteristics meet, -1 / min d(u + c)/dx over [lower, upper]; infinite if they never do.
+  /// The slope is computed by differences; it is accurate to about 1e-8 for profiles wider than 1/200 of the interval.
   double breakingTime() const { return breakingTime_; }
 
-  /// Where the characteristic through (x, t) started, m; x along the wave's axis.
+  /// The position x along the wave's axis [m] at which the characteristic through (x, t) started.
   double foot(double x, double t) const;
 
  private:

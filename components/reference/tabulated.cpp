@@ -14,7 +14,7 @@ namespace tushar::reference {
 
 namespace {
 
-/// Path of a saved field of the cells, of the grid or of the only material that has it.
+/// Path of a saved cell field, which belongs to the grid, or to a single material.
 std::string findField(const output::Hdf5Input& file, const std::string& label) {
   if (const std::string plain = "cells/" + label; file.has(plain)) return plain;
   std::vector<std::string> found;
@@ -88,7 +88,7 @@ std::vector<Tabulated::Share> Tabulated::between(int axis, double x) const {
   return {{cell, 1 - (place - cell)}, {cell + 1, place - cell}};
 }
 
-/// Parts of the length that lies in the table.
+/// The cells along an axis that overlap an interval, and the part of the interval in each.
 std::vector<Tabulated::Share> Tabulated::overlaps(int axis, double lower, double upper) const {
   if (table_.cells[axis] == 1) return {{0, 1.0}};
   const double from = std::max(0.0, (lower - table_.lower[axis]) / spacing_[axis]);

@@ -9,35 +9,37 @@ namespace tushar::reference {
 
 /// Cell means of a gas at one time on a uniform grid.
 struct GasTable {
-  Vec3 lower, upper;            ///< m
-  Index3 cells;                 ///< along x, y, z; along an axis with one the gas is the same without end
-  double time = 0;              ///< s
-  std::vector<GasState> means;  ///< x fastest, z slowest
+  Vec3 lower, upper;  ///< lower corner and upper corner [m]
+  /// Number of cells along x, y, z; along an axis with one cell, the gas is uniform without end.
+  Index3 cells;
+  double time = 0;              ///< time [s]
+  std::vector<GasState> means;  ///< cell means, x fastest, z slowest
 };
 
-/// The cells of a gas in an output of an archive (`t00042.h5`) that contains c.density, c.velocity and c.pressure, or
-/// in a file made by tools/coarsen. Internal energy is p / ((gamma-1) rho) of the means. Throws FileError where the
-/// file cannot be read or does not hold these.
+/// Reads the cell means of a gas from an output of an archive (`t00042.h5`) that contains c.density, c.velocity and
+/// c.pressure, or from a file made by tools/coarsen. The internal energy is p / ((gamma-1) rho), from these means.
+/// Throws FileError if the file cannot be read or does not contain them.
 GasTable readGasTable(const std::filesystem::path& file, double gamma);
 
-/// The cell means of another run, of higher resolution, as the reference of a scene that has no exact solution. It
-/// holds at the time of the table and within its box.
+/// The cell means of another run with higher resolution, as the reference for a scene that has no exact solution. They
+/// are valid at the time of the table and within its box.
 class Tabulated : public GasReference {
  public:
-  /// Throws std::invalid_argument where the table has no cells, no extent or another number of means than cells.
+  /// Throws std::invalid_argument if the table has no cells, no extent, or a number of means that differs from the
+  /// number of cells.
   explicit Tabulated(GasTable table);
 
-  /// Linear interpolation between the centres of cells, which smears shocks over two of them. Throws std::domain_error
-  /// at another time.
+  /// Interpolates linearly between the centres of cells, which smears a shock over two cells. Throws std::domain_error
+  /// at any other time than that of the table.
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override;
   bool covers(const Vec3& x, double t) const override;
-  /// Mean of the cells, each weighted by how much of it is in the box: exact for boxes made of whole cells.
-  /// Throws std::invalid_argument where upper < lower or the box leaves the table.
+  /// Mean of the cells, weighted by the part of each that is in the box; exact for boxes made of whole cells. Throws
+  /// std::invalid_argument if upper < lower, or if the box is not within the table.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:
-  /// Cells along an axis, and their shares of a sum.
+  /// Cells along an axis, and their weights in a sum.
   struct Share {
     int cell;
     double part;
@@ -47,7 +49,7 @@ class Tabulated : public GasReference {
   GasState sum(const std::vector<Share>& x, const std::vector<Share>& y, const std::vector<Share>& z) const;
 
   GasTable table_;
-  Vec3 spacing_;  ///< m
+  Vec3 spacing_;  ///< spacing [m]
 };
 
 }  // namespace tushar::reference

@@ -11,7 +11,7 @@ namespace tushar::reference {
 TiltedTube::TiltedTube(const RiemannProblem& problem, const TubePlacement& placement)
     : tube_(problem), problem_(problem), placement_(placement) {
   if (!(std::abs(placement.normal.norm() - 1) < 1e-12))
-    throw std::invalid_argument("The direction of a tube must be a unit vector.");
+    throw std::invalid_argument("The direction of a tube is not a unit vector.");
   if (placement.mirror && problem.diaphragm < *placement.mirror) side_ = -1;
   checkMirrors();
   findMeetingTime();
@@ -34,7 +34,7 @@ void TiltedTube::checkMirrors() const {
   const RiemannState& near = side_ > 0 ? problem_.left : problem_.right;
   const RiemannState& far = side_ > 0 ? problem_.right : problem_.left;
   if (near.velocity != 0 || (half > 0 && far.velocity != 0))
-    throw std::invalid_argument("The gas at a mirror must be at rest at the start.");
+    throw std::invalid_argument("The gas at a mirror is not at rest at the start.");
 }
 
 void TiltedTube::findMeetingTime() {

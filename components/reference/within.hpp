@@ -6,12 +6,12 @@
 
 namespace tushar::reference {
 
-/// A box, m.
+/// A box [m].
 struct Region {
   Vec3 lower, upper;
 };
 
-/// A reference restricted to a region: the same fields, but errors are measured only there.
+/// A reference restricted to a region. Its fields are unchanged, but errors are measured only in the region.
 class Within : public GasReference {
  public:
   Within(std::shared_ptr<const GasReference> gas, const Region& region) : gas_(std::move(gas)), region_(region) {}

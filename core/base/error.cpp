@@ -25,7 +25,7 @@ std::string lower(std::string_view word) {
   return out;
 }
 
-/// Insertions, deletions and substitutions that turn `a` into `b` (Levenshtein, 1966).
+/// Returns the number of insertions, deletions and substitutions that turn `a` into `b` (Levenshtein, 1966).
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -21,32 +21,32 @@ enum class ExitCode : int {
 
 /// A place in a scene file, or the option on the command line that overrides it.
 struct Location {
-  std::string file;  ///< as the user named it; `--set PATH=VALUE` for an override
-  int line = 0;      ///< from 1; 0 if there is no line
-  int column = 0;    ///< counted in bytes, from 1
+  std::string file;  ///< file name as the user gave it, or `--set PATH=VALUE` for an override
+  int line = 0;      ///< line number, from 1; 0 if the location is not a line of a file
+  int column = 0;    ///< column number in bytes, from 1
 
-  /// Whether it is an option on the command line.
+  /// Whether the location is an option on the command line.
   bool isOption() const { return line == 0 && !file.empty(); }
-  /// `file:line:column`, or `file` alone if there is no line.
+  /// Returns `file:line:column`, or `file` alone if there is no line.
   std::string text() const;
 };
 
-/// The place at which to report an invalid combination of several `parts` of a tag: the option that overrides one of
-/// them, otherwise `tag`.
+/// Returns where to report an invalid combination of values that are given in several `parts` of a tag: at the
+/// command-line option that overrides one of these parts or, if there is none, at `tag`.
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location& tag);
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location&& tag) = delete;  // would dangle
 
-/// One mistake in a scene, in one sentence.
+/// One mistake in a scene, described in one sentence.
 struct InputProblem {
   Location where;
-  std::string tagPath;   ///< `Grid/Level/Box/resolution`; may be empty
-  std::string sentence;  ///< what was found, what is allowed, did-you-mean
+  std::string tagPath;   ///< path of the tag, such as `Grid/Level/Box/resolution`; may be empty
+  std::string sentence;  ///< the message: what was found, what is allowed, and the closest valid name if there is one
 
-  /// `scene.ups:12:7: Grid/Level: …`
+  /// Returns the complete message: `scene.ups:12:7: Grid/Level: …`
   std::string text() const;
 };
 
-/// All mistakes in a scene: thrown once, after the whole file has been read.
+/// Exception with all mistakes in a scene, thrown once after the whole file has been read.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<InputProblem> problems);
@@ -56,17 +56,18 @@ class InputError : public std::runtime_error {
   std::vector<InputProblem> problems_;
 };
 
-/// A task list that cannot be run: a mistake in the component.
+/// Exception for a task list that cannot be run because of a mistake in the component.
 class TaskError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A non-finite or unphysical value: which one, where, when, and what the user can try.
+/// Exception for a non-finite or unphysical value; says which value it is, where and when it occurred, and what the
+/// user can try.
 class NumericalError : public std::runtime_error {
  public:
-  /// `what` names the value and its position; `advice` says what to try; if empty, the advice of the component is used.
-  /// `value` is the name of the value alone, `cell` the number of its cell: if several patches report an error, the one
-  /// in the lowest cell is kept, so that the layout does not matter.
+  /// `what` is the message, which names the value and its position; `advice` is a suggestion to the user, by default
+  /// that of the component. `value` is the bare name of the value, and `cell` the index of its cell. If several patches
+  /// report an error, the one with the lowest cell index is kept, so that the layout does not matter.
   NumericalError(const std::string& what, std::string advice, std::string value = {}, std::uint64_t cell = 0)
       : std::runtime_error(what), advice_(std::move(advice)), value_(std::move(value)), cell_(cell) {}
   const std::string& advice() const { return advice_; }
@@ -78,20 +79,20 @@ class NumericalError : public std::runtime_error {
   std::uint64_t cell_;
 };
 
-/// A file or folder that cannot be read or written: the path and the system's reason.
+/// Exception for a file or folder that cannot be read or written; gives its path and the system's reason.
 class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// ` (did you mean 'x'?)` for the candidate most similar to `word` if there is a similar one, otherwise nothing.
+/// Returns ` (did you mean 'x'?)` for the candidate most similar to `word`, or nothing if none is similar.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
-/// `'a', 'b' or 'c'`.
+/// Returns a list of alternatives as text: `'a', 'b' or 'c'`.
 std::string alternatives(const std::vector<std::string>& words);
-/// `'a', 'b' and 'c'`.
+/// Returns a list as text: `'a', 'b' and 'c'`.
 std::string allOf(const std::vector<std::string>& words);
 
-/// `1 cell`, `2 cells`.
+/// Returns a number with its noun in singular or plural: `1 cell`, `2 cells`.
 std::string counted(long count, std::string_view noun);
 
 }  // namespace tushar

@@ -7,7 +7,8 @@ namespace tushar {
 namespace {
 volatile std::sig_atomic_t interrupted = 0, saveAsked = 0;
 
-/// A second signal has its default effect; if both arrived before the first was handled, it is raised again.
+/// Records the first signal. The second one has its default effect; if it arrives before the first has been handled, it
+/// is raised again.
 extern "C" void noteInterrupt(int signal) {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);

@@ -2,12 +2,13 @@
 
 namespace tushar {
 
-/// From now on the first Ctrl-C or SIGTERM ends the run after the current step, and the second ends it at once. SIGUSR1
-/// requests that the state be saved after the step. A file that grows beyond `ulimit -f` is an error, not a kill.
+/// Sets the reactions to signals: the first Ctrl-C or SIGTERM ends the run after the current step, and the second ends
+/// it immediately. SIGUSR1 requests that the state be saved after the current step. A file that exceeds the limit of
+/// `ulimit -f` causes an error, but does not kill the process.
 void catchInterrupts();
-/// Whether such a signal has arrived.
+/// Whether Ctrl-C or SIGTERM has arrived.
 bool isInterrupted();
-/// Whether SIGUSR1 has arrived since the last call.
+/// Whether SIGUSR1 has arrived since the previous call.
 bool takeSaveSignal();
 
 }  // namespace tushar

@@ -8,8 +8,8 @@
 
 namespace tushar {
 
-/// Values as text, with a separator between them: `1, 2, 3`. In place of fmt::join, for which the compiler makes the
-/// formatting of numbers again in each file that uses it.
+/// Values as text, with a separator between them: `1, 2, 3`. Used instead of fmt::join, whose formatting of numbers
+/// would be compiled again in each file.
 template <class Values>
 std::string joined(const Values& values, std::string_view separator) {
   std::string text;

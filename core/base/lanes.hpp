@@ -14,8 +14,8 @@
 
 namespace tushar {
 
-/// As many numbers as fit into one vector register of the processor. An operation acts on each of them as it does on a
-/// number alone, to the same bits, so that results do not depend on which numbers share a register.
+/// As many numbers as fit into one vector register of the processor. An operation on the register gives each lane the
+/// same bits as the operation on a single number, so results do not depend on which numbers share a register.
 class Lanes {
  public:
 #if defined(__AVX512F__)
@@ -26,18 +26,18 @@ class Lanes {
   static constexpr int count = 2;
 #endif
   using Register [[gnu::vector_size(count * sizeof(double))]] = double;
-  using Mask = decltype(Register() < Register());  ///< true or false in each lane
+  using Mask = decltype(Register() < Register());  ///< one truth value per lane
 
   Lanes() = default;
   Lanes(double all) : values_(all - Register{}) {}
   Lanes(Register values) : values_(values) {}
-  /// Lane k holds value(k).
+  /// Constructs a register whose lane k contains value(k).
   template <class Value>
   static Lanes of(Value&& value) {
     return fill(value, std::make_integer_sequence<int, count>());
   }
 
-  /// Lane k holds from[k].
+  /// Loads from[k] into lane k.
   static Lanes at(const double* from) {
     Register values;
     std::memcpy(&values, from, sizeof(values));
@@ -60,21 +60,23 @@ class Lanes {
   friend Lanes operator/(Lanes a, Lanes b) { return a.values_ / b.values_; }
   friend Mask operator<(Lanes a, Lanes b) { return a.values_ < b.values_; }
   friend Mask operator>(Lanes a, Lanes b) { return a.values_ > b.values_; }
-  /// The lanes of `low` and `high` side by side, from lane `Start` of `low` on.
+  /// Returns one register of consecutive lanes from the sequence `low`, `high`, starting at lane `Start` of `low`.
   template <int Start>
   friend Lanes window(Lanes low, Lanes high) {
     return join<Start>(low.values_, high.values_, std::make_integer_sequence<int, count>());
   }
   friend Mask operator>=(Lanes a, Lanes b) { return a.values_ >= b.values_; }
   friend Lanes select(Mask which, Lanes yes, Lanes no) { return which ? yes.values_ : no.values_; }
-  /// Component `Which` of consecutive vectors of `numbers` numbers, one vector for each lane.
+  /// Loads component `Which` of consecutive vectors at `from`, which have `numbers` components: lane k gets that of
+  /// vector k.
   template <int numbers, int Which>
   [[gnu::always_inline]] static Lanes unpacked(const double* from) {
     Register sum = at(from).values_;
     takeRegisters<numbers, Which, 1>(sum, from, std::make_integer_sequence<int, count>());
     return sum;
   }
-  /// The reverse: the numbers of register `Which` of these vectors, of which each element of `of` has a component.
+  /// Returns register `Which` of such vectors as they are stored in memory, the inverse of `unpacked`. Element c of
+  /// `of` contains component c of all vectors.
   template <int Which, std::size_t numbers>
   [[gnu::always_inline]] static Lanes packed(const std::array<Lanes, numbers>& of) {
     Register sum = of[0].values_;
@@ -82,7 +84,8 @@ class Lanes {
     return sum;
   }
   friend Mask isNaN(Lanes a) { return a.values_ != a.values_; }
-  /// One step of a transposition: swaps the elements of two rows that lie `step` columns apart.
+  /// Performs one step of a transposition of two rows: exchanges element c + `step` of the upper row with element c of
+  /// the lower row, for all c in which the bit `step` is not set.
   template <int step>
   [[gnu::always_inline]] friend void swapBlocks(Lanes& upper, Lanes& lower) {
     upper.template swapWith<step>(lower, std::make_integer_sequence<int, count>());
@@ -99,8 +102,8 @@ class Lanes {
     return __builtin_shufflevector(low, high, (Start + Lane)...);
   }
 
-  /// Puts component Which of register Next and later registers into `sum`, which contains that of the previous
-  /// registers.
+  /// Inserts component Which of the vectors in register Next and in all later registers into `sum`, which already
+  /// contains that of the vectors in earlier registers.
   template <int numbers, int Which, int Next, int... Lane>
   [[gnu::always_inline]] static void takeRegisters(Register& sum, const double* from,
                                                    std::integer_sequence<int, Lane...> lanes) {
@@ -113,7 +116,7 @@ class Lanes {
       takeRegisters<numbers, Which, Next + 1>(sum, from, lanes);
     }
   }
-  /// Puts component Next and later ones of register Which into `sum`.
+  /// Inserts component Next and all later components of register Which into `sum`.
   template <int Which, int Next, std::size_t numbers, int... Lane>
   [[gnu::always_inline]] static void takeComponents(Register& sum, const std::array<Lanes, numbers>& of,
                                                     std::integer_sequence<int, Lane...> lanes) {
@@ -141,7 +144,7 @@ class Lanes {
 /// A square block: the number of rows equals the number of lanes.
 using LanesSquare = std::array<Lanes, Lanes::count>;
 
-/// Lane k of row r moves to lane r of row k.
+/// Transposes a square block: lane k of row r moves to lane r of row k.
 template <int step = Lanes::count / 2>
 [[gnu::always_inline]] inline void transpose(LanesSquare& rows) {
 #pragma GCC unroll 8
@@ -150,7 +153,8 @@ template <int step = Lanes::count / 2>
   if constexpr (step > 1) transpose<step / 2>(rows);
 }
 
-/// Number c of the result has at(k)[c] in lane k: `at(k)` points to `numbers` numbers.
+/// Loads `numbers` consecutive numbers from the address at(k) for each lane k: lane k of element c of the result is
+/// at(k)[c].
 template <int numbers, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> columnsOf(At&& at) {
   constexpr int inSquares = numbers / Lanes::count * Lanes::count;
@@ -169,7 +173,7 @@ template <int numbers, class At>
   return columns;
 }
 
-/// columnsOf for consecutive records of few numbers.
+/// Like columnsOf, for short records that are contiguous in memory.
 template <int numbers, int... Which>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> unpack(const double* from,
                                                                 std::integer_sequence<int, Which...>) {
@@ -179,7 +183,7 @@ template <int numbers>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> unpack(const double* from) {
   return unpack<numbers>(from, std::make_integer_sequence<int, numbers>());
 }
-/// The reverse of unpack.
+/// The inverse of unpack.
 template <std::size_t numbers, int... Which>
 [[gnu::always_inline]] inline void pack(const std::array<Lanes, numbers>& columns, double* to,
                                         std::integer_sequence<int, Which...>) {
@@ -190,7 +194,7 @@ template <std::size_t numbers>
   pack(columns, to, std::make_integer_sequence<int, int(numbers)>());
 }
 
-/// The reverse of columnsOf for the first `count` lanes: at(k)[c] = columns[c] of lane k.
+/// The inverse of columnsOf for the first `count` lanes: at(k)[c] = columns[c] of lane k.
 template <std::size_t numbers, class At>
 [[gnu::always_inline]] inline void storeColumns(const std::array<Lanes, numbers>& columns, int count, At&& at) {
   constexpr int inSquares = int(numbers) / Lanes::count * Lanes::count;
@@ -264,7 +268,7 @@ inline double greatest(Lanes x) {
 
 }  // namespace tushar
 
-/// Lets Eigen's vectors and matrices hold Lanes.
+/// Allows Lanes as the scalar type of Eigen's vectors and matrices.
 namespace Eigen {
 template <>
 struct NumTraits<tushar::Lanes> : NumTraits<double> {

@@ -15,8 +15,9 @@ int numberFrom(std::initializer_list<const char*> names, int otherwise) {
   return otherwise;
 }
 
-/// A variable of srun, if its processes connect by PMIx. Its other variables do not imply several ranks: a program
-/// started without srun in an allocation of many cores has them, too.
+/// The value of a variable of Slurm, if srun has started processes that connect by PMIx; otherwise `otherwise`. Slurm's
+/// other variables do not imply several ranks: a program that is started without srun in an allocation of many cores
+/// has them, too.
 int fromSlurm(const char* name, int otherwise) {
   return std::getenv("PMIX_RANK") ? numberFrom({name}, otherwise) : otherwise;
 }

@@ -2,17 +2,17 @@
 
 namespace tushar {
 
-/// Number of processes that the launcher (mpirun, srun) has started; 1 without a launcher. Read from the environment
-/// that launchers set, so that MPI is not needed for it.
+/// Number of processes started by the launcher (mpirun, srun); 1 without a launcher. Reads environment variables that
+/// launchers set, so MPI need not be initialised.
 int launchedRanks();
 
-/// Index of this process among them, from 0; 0 without a launcher.
+/// Index of this process among those started by the launcher, from 0; 0 without a launcher.
 int launchedRank();
 
-/// Number of these processes on this machine.
+/// Number of processes started by the launcher on this machine.
 int ranksOnThisMachine();
 
-/// Number of cores that the launcher gave to each process; the largest int if it is unknown.
+/// Number of cores that the launcher assigned to each process; the largest int if it is unknown.
 int launchedCoresPerRank();
 
 }  // namespace tushar

@@ -4,11 +4,11 @@
 
 namespace tushar {
 
-// Slopes of a cell from the differences `a` and `b` to its two neighbours. All are symmetric, f(a, b) = f(b, a),
-// odd, f(-a, -b) = -f(a, b), zero at extrema, and TVD: |f| <= 2 min(|a|, |b|).
+// Slopes of a cell, computed from the differences `a` and `b` to its two neighbours. All of these functions are
+// symmetric, f(a, b) = f(b, a), odd, f(-a, -b) = -f(a, b), zero at extrema, and TVD: |f| <= 2 min(|a|, |b|).
 // Source: B. van Leer, J. Comput. Phys. 23 (1977) 276 and 32 (1979) 101; Toro, section 14.4.
 
-/// The smaller difference.
+/// Returns the difference of smaller magnitude; 0 at extrema.
 struct Minmod {
   static double slope(double a, double b) {
     const double least = std::abs(a) < std::abs(b) ? a : b;
@@ -16,7 +16,7 @@ struct Minmod {
   }
 };
 
-/// The harmonic mean, 2 a b / (a + b).
+/// Returns the harmonic mean, 2 a b / (a + b).
 struct VanLeer {
   static double slope(double a, double b) {
     const double product = a * b;
@@ -26,7 +26,7 @@ struct VanLeer {
   }
 };
 
-/// The mean, but at most twice the smaller difference (monotonised central).
+/// Returns the mean, but at most twice the smaller difference (monotonised central).
 struct Mc {
   static double slope(double a, double b) {
     const double least = 2 * (std::abs(a) < std::abs(b) ? a : b);

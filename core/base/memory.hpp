@@ -2,16 +2,16 @@
 
 namespace tushar {
 
-/// Memory of this process, bytes: now, and the peak since it started. Zero if the system gives neither.
+/// Memory that this process uses now, and its peak use since it started [bytes]; 0 if the system does not report them.
 struct ResidentMemory {
   double now = 0, peak = 0;
 };
 ResidentMemory residentMemory();
 
-/// Peak memory of this process, bytes; the call takes a microsecond.
+/// Peak memory of this process [bytes]; the call takes a microsecond.
 double peakMemory();
 
-/// Adds the growth of this process's peak memory during its life to a number [bytes].
+/// Measures the growth of the process's peak memory [bytes] while this object exists, and adds it to a number.
 class PeakGrowth {
  public:
   explicit PeakGrowth(double& sum) : sum_(sum), before_(peakMemory()) {}

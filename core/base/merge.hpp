@@ -6,7 +6,7 @@
 
 namespace tushar {
 
-/// Merges two values given by their bytes, aligned or not: `into.merge(from)`.
+/// Merges the value at `from` into the value at `into` by `into.merge(from)`; the addresses need not be aligned.
 template <class T>
 void mergeInMemory(const std::byte* from, std::byte* into) {
   static_assert(std::is_trivially_copyable_v<T>,

@@ -13,10 +13,10 @@ namespace tushar::mpi {
 
 namespace {
 
-// MPI counts in int: messages go in words, so that one may hold 16 GB.
+// MPI counts in int. Messages are therefore sent in words of 8 bytes, so that a message may have up to 16 GB.
 constexpr std::size_t wordBytes = sizeof(std::uint64_t);
 
-/// A message of whole words: the number of bytes, followed by the bytes.
+/// Pads a message to whole words, and appends its length in bytes.
 Bytes sealed(Bytes bytes) {
   const std::uint64_t length = bytes.size();
   bytes.resize((bytes.size() + wordBytes - 1) / wordBytes * wordBytes + wordBytes);
@@ -33,7 +33,7 @@ Bytes opened(Bytes words) {
 
 int wordsOf(const Bytes& words) { return static_cast<int>(words.size() / wordBytes); }
 
-/// The merge function for the operation below; global, because MPI cannot pass it on.
+/// The merge function for the MPI operation below; a global variable, because MPI cannot pass it as an argument.
 const std::function<void(const std::byte*, std::byte*)>* merging = nullptr;
 
 /// MPI requires inout = in ∘ inout, in the order of the ranks.

@@ -17,10 +17,10 @@ namespace tushar::mpi {
 
 using Bytes = std::vector<std::byte>;
 
-/// The kind of a message: a rank that waits for one kind does not receive others.
+/// The kind of a message: a rank that waits for one kind does not receive messages of another.
 enum class Tag : int { ghosts, migrants, patches, output };
 
-/// Adds `length` bytes to the end.
+/// Appends `length` bytes, which start at `from`.
 inline void append(Bytes& bytes, const void* from, std::size_t length) {
   const auto* first = static_cast<const std::byte*>(from);
   bytes.insert(bytes.end(), first, first + length);
@@ -29,21 +29,21 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
 /// Name and version of the MPI library; MPI need not be initialised.
 std::string libraryVersion();
 
-/// Thrown on a rank because another rank has failed, which reports the cause.
+/// Exception thrown on a rank because another rank has failed; the rank that has failed reports the cause.
 class FailedElsewhere : public std::runtime_error {
  public:
   FailedElsewhere() : std::runtime_error("another rank has failed") {}
 };
 
-/// The ranks that run a simulation together, seen from one of them.
+/// The ranks that run a simulation together, as seen from one of them.
 ///
-/// All but `receive` are collective: every rank calls them, in the same order. With one rank they return at once, and
-/// MPI is not needed.
+/// All functions except `receive` are collective: every rank calls them, in the same order. On a single rank they
+/// return immediately and do not use MPI.
 class Communicator {
  public:
   struct Native;
 
-  /// A single rank without others.
+  /// A communicator of a single rank.
   Communicator() = default;
   static const Communicator& alone();
   /// See mpi_native.hpp.
@@ -70,9 +70,9 @@ class Communicator {
   void merge(T& value) const {
     merge(std::as_writable_bytes(std::span(&value, 1)), mergeInMemory<T>);
   }
-  /// The bytes of rank `from`, on every rank.
+  /// Sends the bytes of rank `from` to all ranks; returns them on every rank.
   Bytes broadcast(Bytes bytes, int from = 0) const;
-  /// The value of rank `from`, on every rank; it must not contain pointers.
+  /// Sends the value of rank `from` to all ranks; the value must not contain pointers.
   template <class T>
   T broadcast(T value, int from = 0) const {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
@@ -84,15 +84,16 @@ class Communicator {
     return value;
   }
   std::string broadcast(const std::string& text, int from = 0) const;
-  /// The texts of all ranks, by rank, on every rank. Slow: for errors.
+  /// Returns the texts of all ranks, ordered by rank, on every rank. Slow: meant for errors.
   std::vector<std::string> gather(const std::string& mine) const;
-  /// Runs a function on rank 0 only. If it throws, its exception passes on there, and the others throw FailedElsewhere.
+  /// Runs a function on rank 0 only. If it throws, rank 0 throws its exception, and the other ranks throw
+  /// FailedElsewhere.
   void onFirst(const std::function<void()>& action) const;
 
   /// Waits for the next message of rank `from` with this tag.
   Bytes receive(int from, Tag tag) const;
 
-  /// A communicator of the ranks with the same colour.
+  /// Returns a communicator of the ranks that pass the same `colour`.
   Communicator split(int colour) const;
   /// MPI's communicator; null for a single rank.
   const Native* native() const { return native_.get(); }
@@ -102,20 +103,20 @@ class Communicator {
   int rank_ = 0, size_ = 1;
 };
 
-/// Outgoing messages; keeps their bytes until they are sent.
+/// Sends messages, and keeps their bytes until they have been sent.
 class Outbox {
  public:
   explicit Outbox(const Communicator& ranks);
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
-  /// Messages that have not been received yet remain in memory, where MPI reads them.
+  /// Keeps the memory of messages that have not been sent completely, because MPI may still read it.
   ~Outbox();
 
-  /// Returns at once.
+  /// Starts sending a message, and returns immediately.
   void send(int to, Tag tag, Bytes bytes);
   /// Waits until all messages are sent; later messages reuse their memory.
   void wait();
-  /// An empty buffer, in the memory of an earlier message if there is one.
+  /// Returns an empty buffer, which reuses the memory of an earlier message if possible.
   Bytes buffer();
 
  private:
@@ -128,10 +129,11 @@ class Outbox {
   std::vector<Bytes> spare_;
 };
 
-/// MPI for the lifetime of a program: initialised only if a launcher (mpirun, srun) started several processes.
+/// Initialises and finalises MPI for a program; MPI is used only if a launcher (mpirun, srun) started several
+/// processes.
 class Session {
  public:
-  /// Throws std::runtime_error for an MPI that allows no threads, and FailedElsewhere on all ranks except 0.
+  /// Throws std::runtime_error if the MPI library does not support threads, and FailedElsewhere on all ranks except 0.
   Session();
   ~Session();
   Session(const Session&) = delete;
@@ -139,14 +141,15 @@ class Session {
 
   const Communicator& ranks() const { return ranks_; }
 
-  /// Must be called by a rank that cannot continue for any reason; `isKnown` if it has its own error message. If all
-  /// ranks call this within some seconds, all can end in order: returns true on the first rank with a message, which
-  /// must print it, and all get its exit code. Otherwise this rank must report its own error and stop the others by
-  /// `abort`; the ranks do so in order, so that if several fail at the same time, one reports.
+  /// Returns whether this rank must print its error message. Must be called by each rank that cannot continue;
+  /// `isKnown`: whether the rank has an error message of its own. If all ranks call this within two seconds, the
+  /// program can end without `abort`: only the first rank with a message gets true, and all ranks get its exit code.
+  /// Otherwise, each rank with a message gets true, and must print it and stop the others by `abort`. In this case, the
+  /// ranks return one after the other, so that usually only one reports.
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have called `speaks`.
   bool isAgreed() const { return is_agreed_; }
-  /// Ends all ranks at once.
+  /// Ends the program on all ranks immediately.
   [[noreturn]] void abort(int exitCode);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// MPI itself, for those few files that hand it on to a library.
+// MPI's own types, for the few files that pass a communicator to a library.
 
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
@@ -22,7 +22,7 @@ struct Communicator::Native {
   }
 };
 
-/// MPI's communicator of the ranks. For a single rank MPI must have been initialised.
+/// MPI's handle of the communicator. For a single rank, MPI must have been initialised.
 inline MPI_Comm handleOf(const Communicator& ranks) { return ranks.native() ? ranks.native()->ranks : MPI_COMM_SELF; }
 
 }  // namespace tushar::mpi

@@ -71,8 +71,8 @@ std::vector<int> firstOfNodes(const Communicator& ranks) {
   return {firsts.begin(), firsts.end()};
 }
 
-/// No rank sends for the next exchange before all ranks have begun it, and a rank begins it only after it has received
-/// everything of this one.
+/// No rank sends messages of the next exchange before all ranks have begun that exchange, and a rank begins it only
+/// after it has received all messages of this one.
 void exchange(const Communicator& ranks, Outbox& outbox, std::vector<Letter> letters,
               const std::function<void(int, const Bytes&)>& take) {
   if (ranks.isAlone()) return;

@@ -6,8 +6,8 @@
 
 namespace tushar {
 
-/// Shows the progress of a run: a line for each output and, on a terminal, a live line that is drawn over; elsewhere,
-/// as in the log of a batch job, one line per minute of wall time.
+/// Shows the progress of a run. Prints a line for each output. On a terminal, it also keeps redrawing one live line; in
+/// a file, such as the log of a batch job, it writes one line per minute of wall time instead.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;
@@ -18,17 +18,17 @@ class Progress {
 
   /// Prints a permanent line.
   void line(const std::string& text);
-  /// Draws the live line, or writes a line to a file. `time`, `dt` and `maxTime` in s.
+  /// Draws the live line, or writes a line to a file. `time`, `dt` and `maxTime` [s].
   void live(int step, double time, double dt, double maxTime);
   /// Ends the live line.
   void finish();
-  /// Whether live() is due, at most ten times a second; cheap enough for every step.
+  /// Whether the next live() is due, at most ten times a second; cheap enough to call in every step.
   bool due();
 
  private:
   bool quiet_, terminal_, drawn_ = false;
   std::FILE* stream_;
-  Clock::duration period_;  ///< between live lines
+  Clock::duration period_;  ///< time between live lines
   Clock::time_point started_, next_;
 };
 

@@ -30,7 +30,7 @@ int boundCores() {
   return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
-/// Keeps the exception of the lowest index among those thrown in a loop.
+/// Among the exceptions thrown in a loop, keeps the one with the lowest loop index.
 class FirstFailure {
  public:
   template <class Work>
@@ -87,7 +87,7 @@ class Threads::Pool {
   }
 
  private:
-  /// The work of a thread in a loop.
+  /// Working time of one thread in a loop.
   struct alignas(64) Busy {
     Clock::time_point until;
     Clock::duration time{};
@@ -110,7 +110,8 @@ class Threads::Pool {
   tbb::affinity_partitioner
       partitioner_;  ///< gives each thread the same indices again, so that data remain in its cache
   std::vector<Busy> busy_;
-  /// TBB synchronises caller and workers; these two do so again, in a way that the thread sanitizer can detect.
+  /// TBB synchronises caller and workers. These two variables do so again, in a way that the thread sanitizer can
+  /// detect.
   std::atomic<bool> started_ = false;
   std::atomic<long> finished_ = 0;
 };

@@ -8,14 +8,14 @@
 
 namespace tushar {
 
-/// Number of cores that this rank may use: those to which it is bound, or its share if several ranks of a launcher use
-/// the same machine; at most SLURM_CPUS_PER_TASK, if that is set.
+/// Number of cores that this rank may use: at most the cores to which it is bound, at most its equal share if a
+/// launcher started several ranks on this machine, and at most SLURM_CPUS_PER_TASK, if that is set.
 int allowedThreads();
 
 /// The version of TBB in use.
 std::string tbbVersion();
 
-/// A fixed number of threads, including the caller's, that work through loops.
+/// A fixed number of threads, including the calling thread, that share the iterations of loops.
 class Threads {
  public:
   explicit Threads(int count = 1);
@@ -24,17 +24,18 @@ class Threads {
   Threads& operator=(const Threads&) = delete;
 
   int count() const { return count_; }
-  /// Sets the number of threads from the next loop on.
+  /// Sets the number of threads for the next and later loops.
   void resize(int count);
 
-  /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If
-  /// calls throw, all are made nevertheless, and the exception of the lowest number is rethrown.
+  /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If a
+  /// call throws, the remaining calls are made nevertheless; then the exception of the call with the lowest number is
+  /// rethrown.
   template <class Work>
   void forEach(int times, const Work& work, trace::Kind kind = trace::Kind::task) {
     run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }}, kind);
   }
 
-  /// Calls `work()` once, on this thread; in a trace it has this name, which must outlive it.
+  /// Calls `work()` once, on this thread; it appears in a trace as `name`, which must outlive the trace.
   template <class Work>
   void alone(const Work& work, trace::Kind kind, std::string_view name) {
     const auto named = [&](int) {
@@ -44,17 +45,17 @@ class Threads {
     forEach(1, named, kind);
   }
 
-  /// Time that the loops have taken so far, s.
+  /// Time spent in loops so far [s].
   struct Use {
-    double task = 0, message = 0;  ///< time of all threads together, by the kind of loop
-    double loops = 0;              ///< time from the start of each loop to its end
+    double task = 0, message = 0;  ///< sum over all threads, separately for each kind of loop
+    double loops = 0;              ///< elapsed time, from the start of each loop to its end
   };
   const Use& use() const { return use_; }
 
-  /// If true, loops on a single thread do not read the clock, because their caller measures the time.
+  /// If `outside` is true, loops on a single thread do not read the clock, because their caller measures the time.
   void countOutside(bool outside) { counted_outside_ = outside && !pool_; }
   bool isCountedOutside() const { return counted_outside_; }
-  /// Counts the time [s] of loops that did not read the clock.
+  /// Adds the time [s] of loops that did not read the clock.
   void count(double seconds, trace::Kind kind) {
     (kind == trace::Kind::message ? use_.message : use_.task) += seconds;
     use_.loops += seconds;
@@ -71,7 +72,7 @@ class Threads {
   int count_ = 1;
   bool counted_outside_ = false;
   Use use_;
-  std::unique_ptr<Pool> pool_;  ///< null for one thread
+  std::unique_ptr<Pool> pool_;  ///< null if there is only one thread
 };
 
 }  // namespace tushar

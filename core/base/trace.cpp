@@ -20,7 +20,7 @@ struct Event {
 };
 using Events = std::vector<Event>;
 
-/// The largest number of spans that are kept per thread, the first ones: as many as viewers can show.
+/// The largest number of spans recorded for each thread: as many as viewers can show. Later spans are dropped.
 constexpr std::size_t mostEvents = 2000000;
 
 std::atomic<bool> on = false;
@@ -43,7 +43,7 @@ void sortByNesting(Events& events) {
             [](const Event& a, const Event& b) { return a.from != b.from ? a.from < b.from : a.to > b.to; });
 }
 
-/// The gaps between the outermost spans.
+/// Returns the gaps between the outermost spans.
 Events gapsOf(const Events& sorted) {
   Events gaps;
   for (Clock::time_point end{}; const Event& event : sorted) {

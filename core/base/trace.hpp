@@ -13,7 +13,7 @@ enum class Kind { task, message, output, wait };
 
 std::string_view nameOf(Kind kind);
 
-/// Starts recording spans; before that, a span costs one test of a flag.
+/// Starts recording spans. Before this call, a span costs only the test of a flag.
 void start();
 bool isOn();
 
@@ -21,7 +21,7 @@ bool isOn();
 /// is none.
 void record(Kind kind, std::string_view name, int patch, Clock::time_point from, Clock::time_point to);
 
-/// Records a span as long as its own lifetime. Spans of a thread are nested.
+/// Records the time from its construction to its destruction. The spans of a thread are nested.
 class Span {
  public:
   Span(Kind kind, std::string_view name, int patch = -1) : name_(name), kind_(kind), patch_(patch), on_(isOn()) {
@@ -42,11 +42,11 @@ class Span {
 };
 
 /// The recorded spans of all threads of this rank, as events in Chrome's trace format (ph X: name, category, start and
-/// length in microseconds; pid is the rank, tid the thread), separated by commas. Time between two spans in which a
-/// thread but the first had nothing to do is a wait. Not while threads record.
+/// length in microseconds; pid is the rank, tid the thread), separated by commas. On all threads except the first, idle
+/// time between two spans is recorded as a wait. Must not be called while threads record.
 std::string events(int rank);
 
-/// A file in that format from the events of all ranks.
+/// Makes a file in Chrome's trace format from the events of all ranks.
 std::string fileOf(const std::string& events);
 
 }  // namespace tushar::trace

@@ -9,7 +9,7 @@
 
 namespace tushar {
 
-/// A point or vector in D space axes (metres unless said otherwise).
+/// A point or vector with D components (in metres unless stated otherwise).
 template <int D>
 using Vec = Eigen::Matrix<double, D, 1, Eigen::DontAlign>;
 
@@ -32,7 +32,7 @@ struct Index {
 
   constexpr int& operator[](int axis) { return at[axis]; }
   constexpr int operator[](int axis) const { return at[axis]; }
-  /// Compares component by component, because the comparison of arrays would call memcmp.
+  /// Compares component by component, because the comparison of std::array would call memcmp.
   friend constexpr bool operator==(const Index& a, const Index& b) {
     bool same = true;
     for (int d = 0; d < D; ++d) same &= a[d] == b[d];
@@ -67,7 +67,7 @@ struct Index {
 
 using Index3 = Index<3>;
 
-/// Identifies a particle for its whole life; the ids of new particles derive from those of their parents.
+/// Identifies a particle as long as it exists; the ids of new particles derive from those of their parents.
 using ParticleId = std::uint64_t;
 
 }  // namespace tushar

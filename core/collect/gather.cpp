@@ -34,7 +34,7 @@ GridOrder orderOf(const Label& label, const grid::Grid& grid) {
   return collect::orderOf(grid, label.centring == Centring::node);
 }
 
-/// The order of the cells of several levels in a window.
+/// The order of the cells in a window of a grid of several levels.
 GridOrder orderIn(const grid::Grid& grid, const Window& window) {
   std::vector<Box> boxes{window.cells};
   boxes.insert(boxes.end(), window.finer.begin(), window.finer.end());
@@ -57,7 +57,7 @@ struct HashFree {
   void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
 };
 
-/// The hash of an array, which rank 0 receives piece by piece; 0 on the others.
+/// Returns, on rank 0, the hash of an array, which rank 0 receives piece by piece; 0 on the other ranks.
 XXH64_hash_t hashOf(const output::Array& array, XXH64_hash_t seed, const output::Writers& first) {
   const std::size_t bytes = output::entryBytes(array);
   const std::size_t piece = first.ranks().isAlone() ? 1 << 14 : std::max<std::size_t>(1, mostOfPiece(first) / bytes);

@@ -8,22 +8,22 @@
 
 namespace tushar::collect {
 
-/// An order of the cells or nodes of a grid that does not depend on the layout: the first axis fastest. If there are
-/// several levels, the order goes box by box, from the coarsest level to the finest, and along the curve within a
-/// level.
+/// A layout-independent order of the cells or nodes of a grid. On a single level, the first axis is fastest. On several
+/// levels, the order goes box by box, from the coarsest level to the finest, and along Morton's curve within a level.
 class GridOrder {
  public:
   /// The order of the cells or nodes of a box, for a single level.
   explicit GridOrder(const grid::Box& all) : all_(all) {}
-  /// The order of all cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block along
-  /// the curve. `windows`: for each level, the box of cells that are in the order; if empty, all cells are.
+  /// The order of the cells of several levels, in boxes of up to `most` cells along each axis or, if `most` is 0, block
+  /// by block along the curve. `windows[level]` is the box of cells of a level that are part of the order; if `windows`
+  /// is empty, all cells are.
   GridOrder(const grid::Grid& grid, int most, std::vector<grid::Box> windows = {});
 
   std::size_t size() const { return boxes_ ? size_ : all_.size(); }
-  /// The cells or nodes that a patch contributes.
+  /// The cells or nodes of a patch that are part of the order.
   grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
-  /// Calls `visit(position in the order, first cell or node, count)` for each row of a box of a level, if it is part of
-  /// the order; box by box along the curve, so from left to right for a single row.
+  /// Calls `visit(position in the order, first cell or node, count)` for each piece of a row of `box` that is
+  /// contiguous in the order. The pieces come box by box along the curve, hence from left to right within a row.
   template <class Visit>
   void forEachRow(int level, const grid::Box& box, Visit&& visit) const {
     if (!boxes_) return rowsOf(0, all_, box.intersect(all_), visit);
@@ -33,7 +33,7 @@ class GridOrder {
     }
   }
 
-  /// The boxes of several levels, in the order; none is empty.
+  /// The non-empty boxes of all levels, in this order.
   std::vector<grid::Tile> boxes() const;
 
  private:
@@ -49,16 +49,16 @@ class GridOrder {
   grid::Box all_;
   bool is_by_level_ = false;
   std::shared_ptr<const grid::BlockTiling> boxes_;
-  std::vector<std::size_t> before_;  ///< place of the first cell of a box
-  std::vector<grid::Box> windows_;   ///< by level
+  std::vector<std::size_t> before_;  ///< position of the first cell of each box
+  std::vector<grid::Box> windows_;   ///< window of each level
   std::size_t size_ = 0;
 };
 
-/// All cells or nodes for which a variable has a value; with several levels, in boxes that suit readers of files.
+/// The order of all cells or nodes on which a variable has values; on several levels, in boxes that suit file readers.
 GridOrder orderOf(const grid::Grid& grid, bool isNode);
 
-/// The order in a checkpoint: block by block for several levels; for one level, with the nodes beyond the sides of the
-/// grid.
+/// The order in a checkpoint. On several levels, it goes block by block; on one level, it includes the nodes outside
+/// the grid.
 GridOrder orderOfState(const grid::Grid& grid, bool isNode);
 
 /// Largest number of cells along an axis of a box in a file.

@@ -54,7 +54,7 @@ void ParticleOrder::findRows() {
   }
 }
 
-/// Finds the start of the particles of each row: after those of all previous rows, on any rank.
+/// Computes the position of the first particle of each row, which is the number of particles in all earlier rows.
 void ParticleOrder::sum() {
   std::vector<std::uint32_t> order(rows_.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -16,7 +16,7 @@ using grid::Level;
 
 namespace {
 
-/// Appends entries.
+/// Appends `count` entries from `first` on, as a new stretch or at the end of the last one.
 void addStretch(std::vector<output::Stretch>& all, std::size_t first, std::size_t count) {
   if (!all.empty() && all.back().first + all.back().count == first)
     all.back().count += static_cast<std::uint32_t>(count);
@@ -52,7 +52,7 @@ class InRuns : public output::Source {
   }
 
  private:
-  /// Calls `visit(values, place of the first, count)` for the part of each run that lies within some range of entries.
+  /// Calls `visit(values, position of the first, count)` for the part of each run that lies within a range of entries.
   template <class Visit>
   void forEachPart(std::size_t first, std::size_t count, Visit&& visit) const {
     const auto isBefore = [](std::size_t place, const Run& run) { return place < run.place + run.count; };
@@ -98,7 +98,7 @@ class AtPlaces : public output::Source {
   void gather(std::size_t first, std::size_t count, std::byte* to) const {
     form_.gather(parts_.of, std::span(places_->places).subspan(first, count), to);
   }
-  /// The range of this rank's places that lie within these entries: first and end.
+  /// The range [first, end) of this rank's positions that lie within these entries.
   std::pair<std::size_t, std::size_t> own(std::size_t first, std::size_t count) const {
     const auto begin = places_->ranked.begin(), end = places_->ranked.end();
     const auto from = std::lower_bound(begin, end, first);
@@ -110,8 +110,8 @@ class AtPlaces : public output::Source {
   EntryForm form_;
 };
 
-/// Runs in the order of their places, without entries of earlier runs: nodes on a face belong to the patches on both
-/// sides.
+/// Returns runs in the order of their positions, without entries that an earlier run contains: nodes on a face between
+/// two patches belong to both.
 Runs withoutOverlaps(Runs runs) {
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
   std::size_t end = 0;
@@ -137,7 +137,7 @@ void forEachId(const Parts& ids, Visit&& visit) {
     }
 }
 
-/// Packs the bits in which ids differ into small keys, which keep the order of the ids.
+/// Packs the bits in which the ids differ into small keys with the same order as the ids.
 class Packing {
  public:
   explicit Packing(std::uint64_t differing) {
@@ -165,7 +165,7 @@ class Packing {
   int bits_ = 0;
 };
 
-/// Sorts by counting in a table of all possible keys.
+/// Sorts with a table of all possible keys (counting sort).
 std::vector<Place> sortedByTable(const Parts& ids, const Packing& keyOf) {
   constexpr std::uint32_t nobody = ~std::uint32_t{0};
   std::vector<Place> places(std::size_t{1} << keyOf.bits(), Place{nobody, 0});
@@ -179,7 +179,7 @@ struct Keyed {
   Place place;
 };
 
-/// Sorts by digits of 11 bits, the lowest first.
+/// Sorts by digits of 11 bits, lowest digit first (radix sort).
 std::vector<Place> sortedByDigits(const Parts& ids, const Packing& keyOf, std::size_t count) {
   constexpr int bits = 11;
   constexpr std::size_t digits = std::size_t{1} << bits;

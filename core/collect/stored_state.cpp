@@ -37,7 +37,7 @@ Array::Values emptyValues(data::Number number) {
   return std::vector<double>{};
 }
 
-/// An array of a variable, without values yet.
+/// Returns an array for a variable, without values yet.
 Array arrayOf(const Label& label) {
   return {std::string(label.name), std::string(label.unit), std::string(label.description), label.components,
           emptyValues(label.number)};
@@ -60,7 +60,7 @@ GridOrder orderOfState(const grid::Grid& grid, const Label& label) {
   return collect::orderOfState(grid, label.centring == Centring::node);
 }
 
-/// The shape of a variable in the file: z, y, x; on several levels, block by block.
+/// The shape of a variable in the file: z, y, x; on several levels, one block after the other.
 std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
   const bool isNode = label.centring == Centring::node;
   const Box all = grid.levels() > 1 ? Box{{}, grid.blockCells()} : isNode ? grid.level().nodes() : grid.level().cells();
@@ -72,7 +72,7 @@ std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
 
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
 
-/// The part that writing and reading share: the variables, and their positions in the file.
+/// What writing and reading a state have in common: the variables, and their positions in the file.
 class StateWalk {
  public:
   StateWalk(data::Warehouse& warehouse, const StateNames& names)
@@ -211,14 +211,14 @@ class StateReader : StateWalk {
       refuse(fmt::format("the checkpoint has {} values of {}, but the scene needs {}", size, path, count));
   }
 
-  /// A dataset with a number of values of a type.
+  /// Describes a dataset with a given number of values of a type.
   Array::Values stored(const std::string& path, const Array::Values& type, std::size_t count) const {
     Array::Values values = file_.dataset(path);
     check(path, values, sizeOf(values), type, count);
     return values;
   }
 
-  /// Access to the values of a variable, part by part.
+  /// Gives access to the values of a variable, part by part.
   output::Hdf5Parts partsOf(const std::string& path, const Label& label, std::size_t entries) const {
     output::Hdf5Parts parts(file_, path, &checks_);
     check(path, parts.type(), parts.count(), emptyValues(label.number),
@@ -246,7 +246,7 @@ class StateReader : StateWalk {
     file.read(std::move(rows));
   }
 
-  /// Number of nodes at the end of a row that also belong to the next patch, which adds them to the checksum.
+  /// Number of nodes at the end of a row that also belong to the next patch, where they are added to the checksum.
   static std::size_t othersOfRow(const Patch& patch, const Index3& first, int count) {
     const Box &cells = patch.cells(), &all = patch.level().cells();
     const auto isNext = [&](int d, int node) { return node == cells.upper[d] && node < all.upper[d]; };
@@ -254,7 +254,7 @@ class StateReader : StateWalk {
     return isNext(0, first[0] + count - 1) ? 1 : 0;
   }
 
-  /// Consecutive entries of a variable, from a place in the file.
+  /// Consecutive entries of a variable, starting at a position in the file.
   static output::Hdf5Parts::Part partOf(const Label& label, std::size_t place, std::size_t count, std::byte* to) {
     const std::size_t components = label.components;
     return {place * components, count * components, to};

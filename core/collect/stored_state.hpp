@@ -12,14 +12,14 @@
 
 namespace tushar::collect {
 
-/// The variables of a state: those with these names, without a material and for each of these materials.
+/// The names of the variables of a state: those that belong to no material, and those of each of these materials.
 struct StateNames {
   std::vector<std::string> labels, materials;
 };
 
 /// The old values of the variables, exact to the last bit, in an order that does not depend on the layout: nodes and
-/// cells with x fastest, particles by (cell, id). Variables that are not held are left out. The values stay where they
-/// are, and are valid until the state changes.
+/// cells with x fastest, particles by (cell, id). Variables without values are left out. The values are not copied;
+/// they are valid until the state changes.
 ///
 ///     /particles/<material>/perCell    number of particles of each cell
 ///     /particles/<material>/<label>    shape: particles × components along the axes in use
@@ -27,9 +27,9 @@ struct StateNames {
 ///     /reductions/<label>              the reducer's bytes, eight to a number
 class StoredState {
  public:
-  /// Collective.
+  /// Collective over all ranks.
   StoredState(data::Warehouse& warehouse, const StateNames& names);
-  /// For output::writeTogether.
+  /// The datasets for output::writeTogether.
   const std::vector<output::Dataset>& datasets() const { return datasets_; }
 
  private:
@@ -37,9 +37,10 @@ class StoredState {
   std::vector<output::Dataset> datasets_;
 };
 
-/// Loads a stored state as the old values, on any patches; each rank reads what its own patches need. `checks` checks
-/// what is read, then the rest. Collective. Throws DamageError, and InputError for a variable of `required` that the
-/// file lacks or has in another form, or that has another number of values.
+/// Loads a stored state as the old values, on any patches; each rank reads only what its own patches need. `checks`
+/// verifies the bytes that the ranks read, and then the rest of the file. Collective. Throws DamageError, and
+/// InputError if a variable of `required` is missing in the file, or is stored there in another form or with another
+/// number of values.
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
                const std::vector<std::string>& required, output::CheckedParts& checks);
 

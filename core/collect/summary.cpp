@@ -35,7 +35,7 @@ struct Extremes {
   }
 };
 
-/// The cells or nodes that a patch counts: nodes on a face between two patches belong to the upper one.
+/// The cells or nodes that a patch counts: nodes on a face between two patches belong to the upper patch.
 Box countedBy(const Patch& patch, const Label& label) {
   if (label.centring != Centring::node) return patch.cells();
   Box nodes = patch.cells().nodes(patch.level().dimension());

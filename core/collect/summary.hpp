@@ -5,20 +5,20 @@
 
 namespace tushar::collect {
 
-/// The scope of a summary: the whole grid, or each plane of cells or nodes across a kernel axis of a grid of one
-/// level.
+/// The scope of a summary: the whole grid or, on a grid of one level, each plane of cells or nodes across a kernel
+/// axis.
 struct SummaryOver {
-  int axis = -1;  ///< -1: the whole grid
+  int axis = -1;  ///< kernel axis across which planes are summarised; -1 for the whole grid
 };
 
-/// Minimum, maximum and sum of each component: over all cells or nodes, or for each plane. Sums over several levels
-/// count a cell by its volume over that of the coarsest.
+/// Minimum, maximum and sum of each component: over all cells or nodes, or for each plane. On several levels, sums
+/// weight a cell by its volume relative to a cell of the coarsest level.
 struct Summary {
   output::Array least, greatest, sum;
 };
 
-/// The summary of a variable of cells or nodes of a generation, on rank 0; empty arrays on the others. The same bits on
-/// any patches and ranks. All ranks call it. Ranks send only their summaries.
+/// Returns the summary of a cell or node variable of a generation on rank 0, and empty arrays on the other ranks. The
+/// result has the same bits on any patches and ranks. Collective; ranks exchange only their own summaries.
 Summary summaryOf(data::Warehouse& warehouse, data::Generation generation, int variable, SummaryOver over);
 
 }  // namespace tushar::collect

@@ -32,7 +32,7 @@ std::vector<std::uint64_t> cutsOf(const mpi::Communicator& ranks, std::span<cons
 struct Part {
   int from = 0;
   std::vector<std::uint64_t> words{};
-  std::size_t count = 0;  ///< of keys
+  std::size_t count = 0;  ///< number of keys
 };
 
 mpi::Bytes bytesOf(std::span<const std::uint64_t> first, std::span<const std::uint64_t> second) {
@@ -49,7 +49,7 @@ std::vector<std::uint64_t> wordsOf(const mpi::Bytes& bytes) {
   return words;
 }
 
-/// Replaces each key of a section by the sum of the weights before it; returns the sum of all.
+/// Replaces each key of a section by the sum of the weights of all smaller keys; returns the sum of all weights.
 std::uint64_t merge(std::vector<Part>& parts, bool isWeighted) {
   struct Next {
     std::uint64_t key;
@@ -72,7 +72,7 @@ std::uint64_t merge(std::vector<Part>& parts, bool isWeighted) {
   return sum;
 }
 
-/// Keys and weights of this rank, cut into sections.
+/// The keys and weights of this rank, divided into sections.
 class Sections {
  public:
   Sections(const mpi::Communicator& ranks, std::span<const std::uint64_t> keys, std::span<const std::uint64_t> weights)
@@ -97,7 +97,7 @@ class Sections {
     return values.empty() ? values : values.subspan(starts_[rank], sizeOf(rank));
   }
 
-  /// The parts of this rank's section on all ranks.
+  /// The parts of this rank's section, received from all ranks.
   std::vector<Part> gathered() {
     std::vector<Part> parts;
     std::vector<mpi::Letter> letters;
@@ -139,7 +139,7 @@ class Sections {
   const mpi::Communicator& ranks_;
   std::span<const std::uint64_t> keys_, weights_;
   mpi::Outbox outbox_;
-  std::vector<std::size_t> starts_;  ///< start of each rank's section among the keys, then their end
+  std::vector<std::size_t> starts_;  ///< start of each rank's section among the keys; the last element is the end
 };
 
 }  // namespace

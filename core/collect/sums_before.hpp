@@ -8,12 +8,12 @@
 
 namespace tushar::collect {
 
-/// For each of this rank's keys, the sum of the weights of all smaller keys of all ranks. Weights that are left out are
-/// 1: then it is the place of the key among all. Keys are ascending, and no key occurs twice on any ranks. A rank needs
-/// memory for its own keys and for about as many of the others. Collective.
+/// For each of this rank's keys, returns the sum of the weights of all smaller keys on all ranks. Without weights, each
+/// key counts as 1, so the sum is the key's position in the global order. Keys must be ascending, and unique over all
+/// ranks. A rank needs memory for its own keys and for about as many of other ranks. Collective.
 ///
-/// Sorts by samples: the keys are cut into as many sections as there are ranks, of about equal length; a rank merges
-/// what all have of its section. Source: J. S. Huang and Y. C. Chow, Proc. COMPSAC 1983, 627 (sample sort).
+/// Uses sample sort: the range of keys is cut into as many sections of about equal length as there are ranks, and each
+/// rank merges all keys of one section. Source: J. S. Huang and Y. C. Chow, Proc. COMPSAC 1983, 627.
 std::vector<std::uint64_t> sumsBefore(const mpi::Communicator& ranks, std::span<const std::uint64_t> keys,
                                       std::span<const std::uint64_t> weights = {});
 

@@ -5,11 +5,11 @@
 
 namespace tushar::data {
 
-/// Raw memory of one variable, aligned to a cache line.
+/// Raw memory for one variable, aligned to a cache line.
 ///
-/// Buffers of the same size would all start at the same offset within a page and evict one another from the
-/// first-level cache; each buffer therefore starts some cache lines further in than the one made before. Large buffers
-/// are pages of their own, which the system gives and takes back one by one: growing one copies nothing.
+/// Buffers of the same size would all start at the same offset within a page and evict one another from the first-level
+/// cache; therefore each buffer starts some cache lines further in than the previous one. Large buffers consist of
+/// pages of their own, which the system allocates and releases one by one, so that enlarging a buffer copies nothing.
 class Buffer {
  public:
   Buffer() = default;
@@ -39,7 +39,7 @@ class Buffer {
   void allocate(std::size_t bytes, std::size_t keep);
 
   void* memory_ = nullptr;
-  std::size_t mapped_ = 0;  ///< size of the mapped pages; 0 if the memory is from the heap
+  std::size_t mapped_ = 0;  ///< size of the memory-mapped pages [bytes]; 0 if the memory is from the heap
   std::byte* start_ = nullptr;
   std::size_t capacity_ = 0;
 };

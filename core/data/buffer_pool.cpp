@@ -85,7 +85,7 @@ void BufferPool::giveUp(Place which) {
   free_.erase(which);
 }
 
-/// Releases free buffers, those that have been free longest first, until the bound holds.
+/// Releases free buffers until the limit is satisfied, starting with those that have been free longest.
 void BufferPool::keepBound() {
   while (!free_.empty() && free_bytes_ + lent_ > bound()) giveUp(free_.begin());
 }

@@ -6,12 +6,12 @@
 
 namespace tushar::data {
 
-/// Memory that variables have released, for later ones. A buffer is not given to a variable that needs much less than
-/// it holds, so that each size finds its own buffers again in the next step. Free memory is bounded: the pool and all
-/// that it has lent hold at most `bound()` bytes together. Not for several threads at once.
+/// Memory released by variables, kept for later variables. A buffer is not reused for a variable that is much smaller
+/// than the buffer, so that in the next step each size finds its own buffers again. Memory is bounded: free and used
+/// buffers of the pool have at most `bound()` bytes together. Not thread-safe.
 class BufferPool {
  public:
-  /// Makes space for `bytes` in a buffer, from the pool if it has one that fits; the first `keep` bytes are preserved.
+  /// Enlarges a buffer to `bytes`, with memory from the pool if there is enough; the first `keep` bytes are preserved.
   void reserve(Buffer& buffer, std::size_t bytes, std::size_t keep = 0);
   /// Lends a buffer of at least `bytes` for a short time; it may be much larger.
   Buffer lend(std::size_t bytes);
@@ -19,26 +19,26 @@ class BufferPool {
   void takeBack(Buffer& buffer);
   /// Returns free memory to the system.
   void release();
-  /// Starts a step: memory that was free during the whole previous step returns to the system.
+  /// Starts a step: memory that stayed free during the whole previous step is returned to the system.
   void beginStep();
 
-  /// How often the pool had no buffer that fitted.
+  /// Number of requests for which the pool had no suitable buffer.
   std::size_t allocations() const { return allocations_; }
-  /// Free bytes, and bytes in buffers that came from the pool.
+  /// Number of bytes in free buffers; `lent`: number of bytes in buffers that the pool has given out.
   std::size_t free() const { return free_bytes_; }
   std::size_t lent() const { return lent_; }
-  /// Limit on the sum of both: slightly more than 5/4 of the largest amount that was lent at the same time in this step
-  /// or the last.
+  /// Limit on free() + lent(): slightly more than 5/4 of the largest amount lent at any time in this step or the
+  /// previous one.
   std::size_t bound() const;
 
  private:
   struct Free {
     Buffer buffer;
-    bool isIdle = false;  ///< since the step began
+    bool isIdle = false;  ///< whether it has been free since the step began
   };
   using Place = std::vector<Free>::iterator;
 
-  /// The smallest free buffer of at least `least` and less than `below` bytes, or the end.
+  /// The smallest free buffer of at least `least` and less than `below` bytes; the end of the list if there is none.
   Place smallest(std::size_t least, std::size_t below);
   Buffer take(Place which);
   void giveUp(Place which);
@@ -46,9 +46,10 @@ class BufferPool {
   /// Notes that the size of a buffer has changed from `before` to `after` bytes.
   void note(std::size_t before, std::size_t after);
 
-  std::vector<Free> free_;  ///< in the order in which they were returned
+  std::vector<Free> free_;  ///< free buffers, in the order in which they were returned
   std::size_t free_bytes_ = 0, lent_ = 0, allocations_ = 0;
-  std::size_t most_lent_ = 0, most_lent_before_ = 0;  ///< largest amount at the same time, in this step and the last
+  /// Largest amount of memory lent at the same time, in this step and in the previous one [bytes].
+  std::size_t most_lent_ = 0, most_lent_before_ = 0;
 };
 
 }  // namespace tushar::data

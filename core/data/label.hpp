@@ -17,23 +17,24 @@ enum class Centring { particle, node, cell, rim, reduction };
 /// The type in which a number of a variable is stored.
 enum class Number { real, id, integer };
 
-/// Where the values of a node variable are defined: on all nodes, or only on those that particles of its material
-/// touch. Then patches exchange only those (tasks/near_rows); the others are undefined, or as each patch wrote them.
+/// The nodes on which the values of a node variable are defined: all nodes, or only those that particles of its
+/// material touch. In the second case, patches exchange only the touched nodes (see tasks/near_rows); the values on
+/// other nodes are undefined, and may differ between patches.
 enum class Counts { everywhere, nearParticles };
 
 /// The properties of a variable of any type that the graph, the archive and messages to users need. Two labels with the
 /// same name are the same variable.
 struct Label {
-  std::string_view name;         ///< as seen in .ups and .uda: `p.mass`, `g.velocity`
-  std::string_view unit;         ///< SI unit; `1` for a dimensionless number
+  std::string_view name;         ///< the name in .ups and .uda: `p.mass`, `g.velocity`
+  std::string_view unit;         ///< SI unit; `1` for dimensionless values
   std::string_view description;  ///< a short description
   Centring centring;
   Number number;
-  int components;     ///< numbers per particle, node or cell
-  std::size_t bytes;  ///< per particle, node or cell
-  bool isVector;      ///< components follow the kernel axes
+  int components;     ///< number of components per particle, node or cell
+  std::size_t bytes;  ///< size of a value per particle, node or cell [bytes]
+  bool isVector;      ///< whether the components belong to the kernel axes
   Bound bound;        ///< checked after every task that writes the variable; a violation ends the run or the step
-  MakeReduction makeReduction = nullptr;  ///< of reductions
+  MakeReduction makeReduction = nullptr;  ///< creates the reduction; only for reduction labels
   Counts counts = Counts::everywhere;
 };
 
@@ -58,7 +59,8 @@ struct Stored<int> {
   static constexpr int components = 1;
   static constexpr bool isVector = false;
 };
-/// Vectors along the kernel axes; wider matrices are stored as they are in memory: tensors row by row.
+/// Matrices with one column are vectors along the kernel axes. Matrices with several columns, such as tensors, are
+/// stored as they are in memory: row by row.
 template <int Rows, int Columns, int Options>
 struct Stored<Eigen::Matrix<double, Rows, Columns, Options>> {
   static constexpr Number number = Number::real;
@@ -83,18 +85,19 @@ struct FieldLabel : Label {
     if (C != Centring::node) throw std::invalid_argument("Counts::nearParticles is only for node labels");
     counts = where;
   }
-  /// Keeps `count` values of T for each particle, node or cell.
+  /// Sets the number of values of T that are stored for each particle, node or cell.
   constexpr void setCount(int count) {
     components = count * Stored<T>::components;
     bytes = count * sizeof(T);
   }
-  /// The prefix of such labels' names, as in Uintah: p. for particles, g. for grid nodes, c. for cells.
+  /// The prefix of the names of labels with this centring, as in Uintah: p. for particles, g. for grid nodes, c. for
+  /// cells.
   static constexpr std::string_view prefix() {
     return C == Centring::particle ? "p." : C == Centring::node ? "g." : "c.";
   }
 };
 
-/// A variable with one T per particle, node or cell.
+/// The label of a variable with one T per particle, node or cell.
 template <class T>
 using ParticleLabel = FieldLabel<Centring::particle, T>;
 template <class T>
@@ -102,7 +105,7 @@ using NodeLabel = FieldLabel<Centring::node, T>;
 template <class T>
 using CellLabel = FieldLabel<Centring::cell, T>;
 
-/// A value for the whole grid, combined from all patches by a reducer R (see reduction.hpp).
+/// The label of one value for the whole grid, combined from all patches by a reducer R (see reduction.hpp).
 template <class R>
 struct ReductionLabel : Label {
   using Reducer = R;
@@ -111,10 +114,11 @@ struct ReductionLabel : Label {
               1,      sizeof(R), false,   Bound::none,         &data::makeReduction<R>} {}
 };
 
-/// The name of the label of particle positions, which are shifted for ghosts beyond a periodic face.
+/// The name of the label of particle positions. The positions of ghosts that are periodic images are shifted by the
+/// period.
 inline constexpr std::string_view positionName = "p.x";
 
-/// Identifies a particle; the framework stores it in every particle set.
+/// The label of the id of a particle; the framework stores an id for each particle.
 inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1",
                                                       "identifier of the particle, which never changes"};
 

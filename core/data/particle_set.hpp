@@ -34,33 +34,34 @@ struct ParticleRange {
   Iterator end() const { return {last}; }
 };
 
-/// Consecutive ghosts of a patch that are copies of particles: of another rank, or of a periodic image.
+/// Consecutive ghosts of a patch that are copies of particles, from another rank or from a periodic image.
 struct GhostRun {
-  int patch, first, count;  ///< where the copied particles are
-  Index3 shift;             ///< shift in cells of their periodic image; zero on the grid itself
-  int to;                   ///< place of the first copy, counted from the first particle of the patch
+  int patch, first, count;  ///< patch of the original particles, index of the first one, and their number
+  Index3 shift;             ///< shift of the periodic image [cells]; zero for particles on the grid itself
+  int to;                   ///< index of the first copy, counted from the first particle of the patch
 };
 
 /// The particles of one material on a patch, cell by cell.
 ///
-/// Places count from the first particle of the patch. Owned particles stand there, sorted by (cell, id). Ghosts, those
-/// of the cells around the patch that belong to other patches, stand where their own patch has them, if that is on the
-/// same rank: before (places below 0) or behind. Only those of other ranks and of periodic images are copies. The index
-/// of cells brings all into one order: sums run cell by cell in lexicographic order and by id within a cell, so they do
-/// not depend on who owns what.
+/// Particles have indices, which count positions in memory from the patch's first particle. The patch's own particles
+/// have indices from 0 on, sorted by (cell, id). Ghosts are particles of other patches in the cells around this patch.
+/// A ghost whose patch is on the same rank is not copied: it is read in the memory of its own patch, which lies before
+/// this patch's memory (negative indices) or behind it. Only ghosts from other ranks and periodic images are copies.
+/// Sums run over cells in lexicographic order and, within a cell, by id, so they do not depend on which patch owns a
+/// particle.
 class ParticleSet {
  public:
-  /// An empty set over a patch and the cells of the grid within `reach` of it.
+  /// Makes the set empty, for a patch and the cells of the grid within `reach` of it.
   void reset(const grid::Patch& patch, int reach);
 
   int owned() const { return owned_; }
-  /// Whether there is a particle at this place that the patch owns or reads.
+  /// Whether `place` is the index of a particle that the patch owns or may read.
   bool covers(int place) const {
     return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last);
   }
   bool hasNone() const { return owned_ == 0 && ghosts_.empty(); }
   const grid::Box& ownedCells() const { return owned_cells_; }
-  /// The patch's cells and those within reach of it.
+  /// The cells of the patch and the cells within reach of it.
   const grid::Box& cells() const { return cells_; }
 
   template <int D>
@@ -84,13 +85,13 @@ class ParticleSet {
   template <int D>
   void forEachOccupied(const grid::Box& box, VisitCell<D> visit) const;
 
-  /// Coordinates of cells along the first axis, from `first` up to but excluding `last`.
+  /// A range of cells along the first axis, from `first` up to but excluding `last`.
   struct Span {
     int first, last;
 
     bool empty() const { return first >= last; }
   };
-  /// The part of the row from `cell` to `end` outside which no cell contains particles.
+  /// The smallest part of the row from `cell` to `end` that contains all cells with particles.
   template <int D>
   Span occupied(const Index<D>& cell, int end) const {
     const Span span = spans_[rowOf(cell)];
@@ -99,7 +100,8 @@ class ParticleSet {
   }
 
   /// The rows of nodes that particles of cells() touch: the nodes of their cells and `ghost` layers around them, along
-  /// the first `dimension` axes. They are found on first use, which must not be by several threads at once.
+  /// the first `dimension` axes. The rows are found by the first call, which several threads must not make at the same
+  /// time.
   const TouchedRows& touched(int ghost, int dimension) const;
 
   /// The ranges of consecutive cells along the first axis, from `cell` on.
@@ -112,9 +114,9 @@ class ParticleSet {
   /// Makes space for the rows of a set that is about as large.
   void makeSpaceFor(const ParticleSet& other) { ranges_.makeSpaceFor(other.ranges_); }
 
-  /// Marks the particles of all cells of the patch as complete, `count` in total.
+  /// Declares that the particles of all cells of the patch have been added, `count` in total.
   void setOwned(int count);
-  /// Marks the particles of the cells of the patch in the row starting with `first` as complete.
+  /// Declares that all particles of the patch in the row starting at `first` have been added.
   void closeRow(const Index3& first);
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
@@ -124,12 +126,13 @@ class ParticleSet {
   void openGhostRows(const grid::Box& box, const ParticleSet& theirs);
   /// Declares the particles of another set in `box` as ghosts; that set begins `offset` places after this one.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
-  /// Declares copies, from place `to` on, as the ghosts of a cell: of the particles `there` in cell - shift on `patch`.
+  /// Declares copies, which are stored from index `to` on, as the ghosts of `cell`. The originals are the particles
+  /// `there` of the patch `patch`, in its cell `cell - shift`.
   void addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to);
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
   void markGhosts() { has_ghosts_ = true; }
-  /// Marks the ghosts as out of date, because their patches have other particles now.
+  /// Marks the ghosts as out of date, because the particles of their patches have changed.
   void forgetGhosts();
 
  private:
@@ -143,7 +146,7 @@ class ParticleSet {
 
   /// Removes the particles of the cells of a row, except those in `kept`.
   void empty(std::size_t row, const Span& kept);
-  /// Notes ghosts from `first` up to `last` in a row of cells.
+  /// Extends the occupied part of a row by `cells`, and the range of ghosts by `places`.
   void widen(std::size_t row, const Span& cells, const ParticleRange& places);
 
   grid::Box owned_cells_, cells_;
@@ -151,10 +154,11 @@ class ParticleSet {
   std::vector<Span> spans_;  ///< for each row along the first axis, the part outside which no cell contains particles
   std::vector<Span> own_spans_;  ///< the same for the patch's own particles
   std::vector<GhostRun> ghost_runs_;
-  ParticleRange ghosts_;  ///< from the first place of a ghost to the end of the last
+  ParticleRange ghosts_;  ///< range from the first ghost to the end of the last one
   int owned_ = 0;
   bool has_ghosts_ = false;
-  mutable std::map<int, TouchedRows> touched_;  ///< by distance beyond the cells, up to the largest that was requested
+  /// Touched rows for each number of ghost layers, up to the largest that was requested.
+  mutable std::map<int, TouchedRows> touched_;
 };
 
 }  // namespace tushar::data

@@ -13,17 +13,18 @@
 
 namespace tushar::data {
 
-/// The origin of a value in a few characters, such as `CFL`, stored so that its bytes can be sent.
+/// A short text that says where a value comes from, such as `CFL`. It contains no pointers, so that its bytes can be
+/// sent.
 class Reason {
  public:
   constexpr Reason() = default;
-  /// Takes a literal of at most 31 characters.
+  /// Constructs a reason from a literal of at most 31 characters.
   template <std::size_t N>
   constexpr Reason(const char (&words)[N]) {
     static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason must have at most 31 characters");
     for (std::size_t k = 0; k < N; ++k) letters_[k] = words[k];
   }
-  /// Takes any text, cut off after 31 characters.
+  /// Constructs a reason from any text, cut off after 31 characters.
   static Reason of(std::string_view words) {
     Reason reason;
     words.copy(reason.letters_.data(), reason.letters_.size() - 1);
@@ -37,8 +38,8 @@ class Reason {
   std::array<char, 32> letters_{};
 };
 
-/// The minimum of all values, with its reason if one is given; +infinity if there are none. If values are equal, the
-/// reason that comes first in the alphabet is kept, so that the order of the additions does not matter.
+/// The minimum of all values, with its reason if one is given; +infinity if there are no values. If values are equal,
+/// the reason that comes first in the alphabet is kept, so that the order in which values are added does not matter.
 struct Minimum {
   double value = std::numeric_limits<double>::infinity();
   Reason reason{};
@@ -64,8 +65,8 @@ struct Maximum {
   std::vector<double> values() const { return {value}; }
 };
 
-/// Makes `a` the rounded sum of both, and `b` the exact rounding error (D. E. Knuth, The Art of Computer Programming 2,
-/// 4.2.2, theorem B). For registers, lane by lane.
+/// Replaces `a` by the rounded sum of both, and `b` by the exact rounding error (D. E. Knuth, The Art of Computer
+/// Programming 2, 4.2.2, theorem B). For registers, lane by lane.
 template <class Number>
 void addExactly(Number& a, Number& b) {
   const Number sum = a + b;
@@ -74,8 +75,8 @@ void addExactly(Number& a, Number& b) {
   a = sum;
 }
 
-/// A sum of about 48 digits, which includes the rounding error of each addition and the rounding error of that. Its 16
-/// leading digits do not depend on the order of the additions, even if most of it cancels out.
+/// A sum with about 48 digits: it accumulates the rounding error of each addition, and in turn the rounding errors of
+/// these additions. Its 16 leading digits do not depend on the order of the additions, even if the terms nearly cancel.
 struct Sum {
   double value = 0, error = 0, rest = 0;
 
@@ -84,7 +85,7 @@ struct Sum {
     addExactly(error, x);
     rest += x;
   }
-  /// Afterwards each part is the rounding error of the previous one, so that equal sums have equal bits.
+  /// After the merge, each part is the rounding error of the previous one, so that equal sums have equal bits.
   void merge(const Sum& other) {
     add(other.value);
     double x = other.error;
@@ -98,7 +99,7 @@ struct Sum {
   std::vector<double> values() const { return {total()}; }
 };
 
-/// Adds to a Sum in four independent lanes.
+/// Adds numbers to a Sum in four independent lanes.
 class WideSum {
  public:
   explicit WideSum(Sum& sum) : sum_(&sum) {}
@@ -115,7 +116,7 @@ class WideSum {
   Sum* sum_;
 };
 
-/// A sum of vectors in x, y, z.
+/// A sum of vectors with components x, y, z.
 struct VectorSum {
   Sum x, y, z;
 
@@ -132,13 +133,13 @@ struct VectorSum {
   std::vector<double> values() const { return {x.total(), y.total(), z.total()}; }
 };
 
-/// Norms of an error over the places for which it is added, by default with equal weights: L1 = mean |e|,
-/// L2 = sqrt(mean e²), max |e|, and L1 over the mean magnitude of the exact values, where they are given.
+/// Norms of an error over the places at which it is added, with equal weights by default: L1 = mean |e|, L2 = sqrt(mean
+/// e²), max |e| and, if exact values are given, L1 divided by their mean magnitude.
 struct Norm {
   Sum absolute, squared, count, exact;
   double max = 0;
 
-  /// `weight`: weight of the place, such as Level::weight(); a power of two, so that it causes no rounding.
+  /// `weight`: weight of the place, such as Level::weight(); a power of two, so that weighting causes no rounding.
   void add(double e, double magnitude = 0, double weight = 1) {
     exact.add(weight * std::abs(magnitude));
     absolute.add(weight * std::abs(e));
@@ -159,12 +160,13 @@ struct Norm {
   std::vector<double> values() const { return {l1(), l2(), max, relative()}; }
 };
 
-/// The time step; tasks of scheduleComputeStableTimeStep lower it, each with the name of its limit as the reason.
+/// The time step [s]; tasks of scheduleComputeStableTimeStep lower it, each with the name of its limit as the reason.
 inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
 
-/// The factor by which the time step may be multiplied without violating a bound. If a task of scheduleTimeAdvance
-/// computes less than 1, the step is undone and repeated with a smaller one; the reason names the bound. The step ends
-/// with that task, so that no later one sees the invalid values. The old state stays as it is.
+/// The largest factor by which the time step may be multiplied without violating a bound. If a task of
+/// scheduleTimeAdvance computes a value below 1, the step is undone and repeated with a smaller time step; the reason
+/// names the bound. The step ends with this task, so that no later task reads the invalid values. The old state is
+/// preserved.
 inline constexpr ReductionLabel<Minimum> recomputeTimeStep{
     "recomputeTimeStep", "1", "factor by which to multiply the time step so that every bound holds"};
 

@@ -10,7 +10,7 @@
 
 namespace tushar::data {
 
-/// A reduction of some type: the reducer and, while a task runs, a partial result of each patch.
+/// A reduction of any type: the reducer and, while a task runs, one partial result per patch.
 class ReductionSlot {
  public:
   virtual ~ReductionSlot() = default;
@@ -18,9 +18,9 @@ class ReductionSlot {
   virtual std::vector<double> values() const = 0;
   /// The bytes of the reducer.
   virtual std::span<std::byte> bytes() = 0;
-  /// Merges a reducer into another, both given by their bytes.
+  /// Merges one reducer into another; both are given by their bytes.
   virtual void merge(const std::byte* from, std::byte* into) const = 0;
-  /// Makes this number of empty partial results.
+  /// Creates `parts` empty partial results.
   virtual void divide(std::size_t parts) = 0;
   /// Adds the partial results to the reducer in a fixed order and empties them.
   virtual void gather() = 0;

@@ -27,7 +27,7 @@ class RimFlux {
   RimFlux(T* values, std::span<const grid::RimPiece> pieces) : values_(values), pieces_(pieces) {}
 
   bool empty() const { return pieces_.empty(); }
-  /// Calls `visit(cell, axis, side, flux through that face of the cell)`.
+  /// Calls `visit(cell, axis, side, flux)` for each face on the rim, with the flux through this face of the cell.
   template <int D, class Visit>
   void forEachFace(Visit&& visit) const {
     for (const grid::RimPiece& piece : pieces_) {

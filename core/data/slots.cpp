@@ -10,7 +10,7 @@ namespace tushar::data {
 
 namespace {
 
-/// Slots start at multiples of this number of values: at a cache line, whatever the size of a value.
+/// Slots start at multiples of this number of values, and hence at a cache line, whatever the size of a value.
 constexpr std::size_t step = 16;
 
 std::size_t roundedUp(std::size_t count) { return (count + step - 1) / step * step; }
@@ -21,7 +21,7 @@ void append(Slots& slots, std::size_t place, std::size_t room) {
   slots.end += room;
 }
 
-/// Slots for a number of particles, with spare space.
+/// Size of a slot for a number of particles, including spare space.
 std::size_t roomFor(std::size_t count) { return roundedUp(count + count / 64 + step); }
 
 SharedSlots laidOutAnew(const std::vector<std::size_t>& counts) {

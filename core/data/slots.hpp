@@ -11,18 +11,19 @@ namespace tushar::data {
 struct Label;
 
 /// The positions of a rank's patches in the single buffer of a variable, counted in values. Each patch has a slot;
-/// behind the last come copies of particles whose own place is elsewhere: on another rank, or one period away.
+/// copies of particles whose original is on another rank or one period away follow after the last slot.
 ///
-/// Layouts do not change: variables with the same layout share one, and where particles need other slots there is a new
-/// one.
+/// A layout never changes: variables with the same layout share it, and if particles need other slots, a new layout is
+/// made.
 struct Slots {
-  std::vector<std::size_t> first;  ///< by index of the patch on its rank
+  std::vector<std::size_t> first;  ///< start of each slot, indexed by the patch on its rank
   std::vector<std::size_t> room;   ///< for particles: capacity of each slot
   std::vector<grid::Box> stored;   ///< for nodes and cells: the box in each slot, including ghosts
   std::size_t end = 0;             ///< end of the last slot
 
-  /// Whether particles can move here from the slots `other` within the same memory: each slot is one of `other` and not
-  /// larger, or is behind all of them. So no patch overwrites values that another has still to move.
+  /// Whether particles can move from the slots `other` to these slots within the same memory, so that no patch
+  /// overwrites values that another patch has not moved yet. Each slot must either start where the patch's slot in
+  /// `other` starts, and not be larger, or lie behind all slots of `other`.
   bool extends(const Slots& other) const;
 };
 
@@ -34,8 +35,8 @@ SharedSlots slotsOfGrid(const grid::Grid& grid, const Label& label, int ghost);
 SharedSlots slotsOfRims(const grid::Grid& grid);
 
 /// Slots for given numbers of particles on each patch. Slots of `base` (which may be null) stay where the particles
-/// fit; a patch that has outgrown its slot gets one behind the others, with room for an eighth more. Where the memory
-/// would then be more than a quarter larger than it need be, all are laid out anew.
+/// fit; a patch that has outgrown its slot gets one behind the others, with room for an eighth more. If the memory
+/// would then be more than a quarter larger than necessary, all slots are laid out anew.
 SharedSlots slotsThatFit(const SharedSlots& base, const std::vector<std::size_t>& counts);
 
 }  // namespace tushar::data

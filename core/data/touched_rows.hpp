@@ -13,7 +13,7 @@ class ParticleSet;
 /// The rows of nodes along the first axis that particles touch; other nodes are neither cleared nor read nor copied.
 class TouchedRows {
  public:
-  /// None.
+  /// Constructs an empty set of rows.
   TouchedRows() = default;
   /// All rows of `nodes`, in full.
   static TouchedRows all(const grid::Box& nodes);
@@ -32,7 +32,8 @@ class TouchedRows {
   void touch(const Index3& cellRow, int low, int high, int ghost, int dimension);
 
   grid::Box nodes_, rows_;
-  std::vector<std::pair<int, int>> touched_;  ///< for each row; empty if no particle touches any node
+  /// Range of each row along the first axis; empty if no particle touches any of its nodes.
+  std::vector<std::pair<int, int>> touched_;
 };
 
 }  // namespace tushar::data

@@ -4,9 +4,10 @@
 
 namespace tushar::data {
 
-/// The first coordinate of a particle that no longer exists: the next relocation removes it.
+/// The value of the first coordinate that marks a particle as gone: the next relocation removes it.
 inline constexpr double vanished = std::numeric_limits<double>::max();
-/// The first coordinate of a particle that cannot be continued: the next relocation drops it, and counts it.
+/// The value of the first coordinate that marks a particle as impossible to continue: the next relocation drops and
+/// counts it.
 inline constexpr double removed = std::numeric_limits<double>::lowest();
 
 }  // namespace tushar::data

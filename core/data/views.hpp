@@ -17,7 +17,7 @@ inline constexpr bool checked = true;
 inline constexpr bool checked = false;
 #endif
 
-/// An index outside the declared range, which is a defect in the body of the task. Checked in the dev preset only.
+/// Exception for an index outside the declared range: a defect in the body of the task. Checked in the dev preset only.
 class AccessError : public std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -25,8 +25,8 @@ class AccessError : public std::logic_error {
 [[noreturn]] void refuse(const Label* label, const Index3& index, const grid::Box& box);
 [[noreturn]] void refuse(const Label* label, int particle, int count);
 
-/// A task's view of a particle variable: one T per particle of its patch and of the declared ghost cells. `const T`
-/// where it may only read.
+/// A task's view of a particle variable: one T per particle of its patch and of the declared ghost cells. T is const if
+/// the task may only read.
 template <class T>
 class ParticleView {
  public:
@@ -38,7 +38,7 @@ class ParticleView {
       if (!set_->covers(particle)) refuse(label_, particle, set_->owned());
     return values_[particle];
   }
-  /// The cells whose particles may be used: the patch's, and the ghost cells that were declared.
+  /// The cells whose particles may be used: those of the patch, and the declared ghost cells.
   const grid::Box& cells() const { return cells_; }
   /// The particles of a cell, in the order of their ids.
   template <int D>
@@ -54,7 +54,7 @@ class ParticleView {
       if (!(box.intersect(cells_) == box)) refuse(label_, box.lower, cells_);
     set_->forEachOccupied<D>(box, visit);
   }
-  /// Number of particles that the patch owns: indices 0 to owned() - 1.
+  /// Number of particles that the patch owns; they have the indices 0 to owned() - 1.
   int owned() const { return set_->owned(); }
   const ParticleSet& set() const { return *set_; }
   /// The address of the value with index 0; values of ghosts may precede it.
@@ -97,7 +97,7 @@ class GridView {
   }
   const grid::Box& box() const { return box_; }
   const grid::Box& stored() const { return stored_; }
-  /// The values of the box `stored`, the first axis fastest.
+  /// The values on the box `stored`, the first axis fastest.
   T* values() const { return values_; }
   /// Sets all stored values to one value.
   void fill(const std::remove_const_t<T>& value) const { std::fill_n(values_, stored_.size(), value); }

@@ -149,14 +149,14 @@ void Warehouse::allocateParticles(Generation generation, int number, Generation 
   allocate(storage(generation, number), *label, where.slots, valuesWithCopies(where, number));
 }
 
-/// Number of values including space for ghost copies; for variables that are read outside their patches, as many as
-/// before.
+/// Number of values of a variable for which memory is needed, including ghost copies. A variable that is read outside
+/// its patches keeps space for the largest number of ghost copies so far.
 std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const {
   return layout.slots->end + (table_->ghost(number) > 0 ? layout.mostCopies : 0);
 }
 
-/// Releases the memory of a variable, except for a small buffer: releasing it and finding it again would take longer
-/// than using it.
+/// Releases the memory of a variable, unless the buffer is small: releasing and finding a small buffer again takes
+/// longer than using it.
 void Warehouse::free(Generation generation, int number) {
   constexpr std::size_t little = std::size_t{1} << 13;
   Storage& freed = storage(generation, number);

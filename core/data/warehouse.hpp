@@ -21,27 +21,27 @@ class Communicator;
 
 namespace tushar::data {
 
-/// A label of one material; `material` is -1 for variables that belong to none.
+/// A label and its material; `material` is -1 for variables that do not belong to a material.
 struct VariableName {
   const Label* label;
   int material;
 };
 
-/// Numbers the variables of a run, so that the time loop never looks up a name.
+/// Assigns an index to each variable of a run, so that the time loop never looks up a name.
 class VariableTable {
  public:
   /// The index of a variable, assigned on first use.
   int number(const Label& label, int material);
-  /// The index, or -1 if no task has named the variable.
+  /// The index of a variable, or -1 if no task has named it.
   int find(std::string_view name, int material) const;
   const VariableName& operator[](int number) const { return names_[number]; }
   int size() const { return static_cast<int>(names_.size()); }
 
-  /// Notes that a task reads the variable with `ghost` layers of cells or nodes around its patch.
+  /// Records that a task reads the variable with `ghost` layers of cells or nodes around its patch.
   void widen(int number, int ghost);
   /// The largest number of ghost layers with which any task reads a variable.
   int ghost(int number) const { return ghosts_[number]; }
-  /// The largest number of ghost layers with which any task reads a particle variable of a material.
+  /// The largest number of ghost layers with which any task reads any particle variable of a material.
   int reach(int material) const { return material < static_cast<int>(reaches_.size()) ? reaches_[material] : 0; }
 
  private:
@@ -63,20 +63,23 @@ inline grid::Box ownBox(const grid::Patch& patch, const Label& label) {
   return label.centring == Centring::node ? patch.nodes() : patch.cells();
 }
 
-/// The values that tasks read with `requiresOld`: the state at the start of the step. The rest is new.
+/// The generation of a value. `old`: it belongs to the state at the start of the step, which `requiresOld` reads;
+/// `fresh`: it is computed in the step.
 enum class Generation { old, fresh };
 
 /// Holds the variables and particle sets of this rank, in two generations.
 ///
-/// A variable is one piece of memory, in which each patch of the rank has its slot. All particle variables of a
-/// material and generation of its sets have the same layout, so that a place counted from the first particle of one
-/// patch reaches the particles of any other: patches read the ghosts that are on their rank in place. Only the contents
-/// of variables and sets may be used by several threads at once.
+/// A variable is one contiguous piece of memory, in which each patch of the rank has a slot. All particle variables of
+/// a material that belong to the same generation of particle sets have the same layout. An index counted from the first
+/// particle of one patch can therefore denote a particle of another patch, so that patches read ghosts from their own
+/// rank without copying them. Several threads may use the contents of variables and sets at the same time, but must not
+/// call other functions of the warehouse.
 class Warehouse {
  public:
-  /// For one rank on its own.
+  /// A warehouse for a run on one rank.
   Warehouse(const grid::Grid& grid, VariableTable& table);
-  /// `ranks` share the grid as the grid prescribes, and must outlive the warehouse.
+  /// A warehouse on several ranks. `ranks` are the ranks over which `grid` distributes its patches; they must outlive
+  /// the warehouse.
   Warehouse(const grid::Grid& grid, VariableTable& table, const mpi::Communicator& ranks)
       : grid_(&grid), table_(&table), ranks_(&ranks) {}
 
@@ -86,7 +89,7 @@ class Warehouse {
   /// The ranks that share the grid.
   const mpi::Communicator& ranks() const { return *ranks_; }
 
-  /// `patch` is the index of a patch of this rank. Good until the memory of the variable changes.
+  /// Access to a variable on the patch with index `patch` on this rank; valid until the memory of the variable changes.
   Variable variable(Generation generation, int number, int patch);
   ParticleSet& particles(Generation generation, int material, int patch) {
     return state(generation).sets[place(material, patch)];
@@ -102,13 +105,14 @@ class Warehouse {
     return static_cast<TypedReduction<R>&>(slot(number)).part(patch - grid_->firstPatch());
   }
   void resetReduction(int number);
-  /// A reduction of any type, made on first use, which must not happen on several threads at once.
+  /// The slot of a reduction of any type. The first call makes it; several threads must not make this call at the same
+  /// time.
   ReductionSlot& slot(int number);
-  /// The values of a reduction; none if no task has computed it.
+  /// The values of a reduction; empty if no task has computed it.
   std::vector<double> reductionValues(int number) const;
-  /// The bytes of the reducer; empty if no task has computed it.
+  /// The bytes of the reducer of a reduction; empty if no task has computed the reduction.
   std::span<const std::byte> reductionBytes(int number) const;
-  /// Restores the bytes that a reduction had in another run.
+  /// Restores the bytes of a reduction from an earlier run.
   void restoreReduction(int number, std::vector<std::byte> bytes);
 
   /// Makes space for all variables named so far, and for the particle sets of `materials` materials.
@@ -119,7 +123,7 @@ class Warehouse {
   /// Allocates a node or cell variable on all patches, with all ghosts that tasks read; filled with NaN in the dev
   /// preset.
   void allocateGrid(Generation generation, int number);
-  /// Allocates fluxes through the rims of all patches, all 0.
+  /// Allocates the fluxes through the rims of all patches, and sets them to 0.
   void allocateRims(Generation generation, int number);
   /// Allocates a particle variable on all patches, in the slots of the sets of generation `set`; filled with NaN in the
   /// dev preset.
@@ -127,42 +131,43 @@ class Warehouse {
   /// Returns the memory of a variable to the pool.
   void free(Generation generation, int number);
 
-  /// Assigns slots to the sets of a material, whose particles are complete on all patches; if possible, the slots of
-  /// `base`.
+  /// Assigns slots to the particle sets of a material once their particles are complete on all patches; keeps the slots
+  /// of generation `base` if possible.
   void layOut(Generation generation, int material, Generation base);
-  /// Moves a particle variable from the previous slots of the sets to those of generation `set`. Values in slots that
-  /// stay are kept; patches with other slots have undefined values. If the variable has other memory now, returns the
-  /// previous one, which the caller gives back.
+  /// Moves a particle variable from the previous slots of the sets to those of generation `set`. Values in unchanged
+  /// slots are kept; patches whose slots have changed get undefined values. If the variable gets new memory, returns
+  /// the previous buffer, which the caller must release.
   Buffer follow(Generation generation, int number, Generation set);
-  /// The memory of a variable, and the positions of patches and sets in it.
+  /// The memory of a variable; `slots` gives the positions of the patches in it.
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }
   const SharedSlots& slots(Generation generation, int number) const;
   const SharedSlots& slotsOfSets(Generation generation, int material) { return layout(generation, material).slots; }
-  /// The distance in memory from the first particle of a patch to that of another.
+  /// The distance in memory from the first particle of one patch to that of another, counted in particles.
   int distance(Generation set, int material, int from, int to);
-  /// Index of the next `count` ghost copies of a patch, counted from its first particle.
+  /// Reserves the next `count` indices for ghost copies of a patch; returns the first, counted from the patch's first
+  /// particle.
   int placeCopies(Generation set, int material, int patch, int count);
-  /// Makes space for all ghost copies that have an index; existing values are preserved.
+  /// Makes space for all ghost copies whose indices have been reserved; existing values are preserved.
   void reserveCopies(Generation generation, int number, Generation set);
 
-  /// Lends memory for a short time; give it back with takeBack.
+  /// Lends memory for a short time; return it with takeBack.
   Buffer lend(std::size_t bytes) { return pool_.lend(bytes); }
   void takeBack(Buffer& buffer) { pool_.takeBack(buffer); }
   /// Returns unused memory to the system.
   void releaseFreeMemory();
-  /// Starts a step: memory that the previous one never needed returns to the system.
+  /// Starts a step: memory that the previous step never needed is returned to the system.
   void beginStep();
 
   /// Whether any rank has values of a variable. Collective.
   bool isHeld(Generation generation, int number);
 
-  /// Makes the new generation old and frees the previous one, on every patch.
+  /// Makes the new values of a variable its old ones on every patch, and frees the previous old values.
   void makeOld(int number);
   void swapSets(int material);
   /// Removes the ghosts of all particle sets; the next exchange plans them again.
   void forgetGhosts();
 
-  /// Number of allocations so far; variables that nothing reads add none.
+  /// Number of memory allocations so far; variables that nothing reads are not allocated.
   std::size_t allocations() const { return pool_.allocations(); }
 
  private:
@@ -172,15 +177,16 @@ class Warehouse {
     SharedSlots slots;
     bool held = false;
   };
-  /// The slots of the particles of a material.
+  /// The slots for the particles of a material.
   struct Layout {
     SharedSlots slots;
-    std::size_t copies = 0, mostCopies = 0;  ///< number of ghost copies after the slots: now, and the largest so far
+    /// Number of ghost copies stored after the slots: now, and the largest number so far.
+    std::size_t copies = 0, mostCopies = 0;
   };
   struct State {
-    std::vector<Storage> storages;  ///< by number
-    std::deque<ParticleSet> sets;   ///< by material and patch
-    std::vector<Layout> layouts;    ///< by material
+    std::vector<Storage> storages;  ///< index: number of the variable
+    std::deque<ParticleSet> sets;   ///< indices: material, then patch
+    std::vector<Layout> layouts;    ///< index: material
   };
 
   State& state(Generation generation) { return generation == Generation::old ? old_ : fresh_; }
@@ -198,9 +204,9 @@ class Warehouse {
   VariableTable* table_;
   const mpi::Communicator* ranks_;
   State old_, fresh_;
-  std::map<std::pair<Centring, int>, SharedSlots> grid_slots_;  ///< by centring and ghosts
+  std::map<std::pair<Centring, int>, SharedSlots> grid_slots_;  ///< slots for each centring and number of ghost layers
   std::vector<std::unique_ptr<ReductionSlot>> reductions_;
-  std::unordered_map<int, std::vector<std::byte>> restored_;  ///< reductions that no task has named yet
+  std::unordered_map<int, std::vector<std::byte>> restored_;  ///< restored reductions that no task has named yet
   BufferPool pool_;
 };
 

@@ -6,7 +6,7 @@ namespace tushar::grid {
 
 namespace {
 
-/// Makes patches: which leaves have one, and the blocks of the one that grows.
+/// Divides the leaves into patches; remembers which leaves already belong to a patch.
 class PatchMaker {
  public:
   PatchMaker(const BlockTree& tree, const Index3& blockCells, const Index3& most)
@@ -14,7 +14,7 @@ class PatchMaker {
 
   bool hasPatch(std::size_t place) const { return hasPatch_[place]; }
 
-  /// Grows a patch from its first leaf; returns its blocks.
+  /// Grows a patch from its first leaf; returns the box of its blocks.
   Box growFrom(const BlockId& leaf) {
     Box blocks{leaf.at, leaf.at + Index3::filled(1)};
     for (int axis = 0; axis < tree_.dimension(); ++axis)
@@ -44,7 +44,7 @@ class PatchMaker {
 
   const BlockTree& tree_;
   Index3 blockCells_, most_;
-  std::vector<bool> hasPatch_;  ///< by place of the leaf on the curve
+  std::vector<bool> hasPatch_;  ///< index: position of the leaf on the curve
 };
 
 }  // namespace

@@ -6,13 +6,13 @@
 
 namespace tushar::grid {
 
-/// The blocks of a level that contain cells of a box, which lies on the grid.
+/// The blocks of a level that contain cells of a box; the box must lie on the grid.
 Box blocksOver(const Box& cells, const Index3& blockCells);
 
-/// The patches of a grid of several levels: boxes of leaves of a block tree. All of them are kept on each rank.
+/// The patches of a grid of several levels: boxes of leaves of a block tree. Each rank stores all of them.
 class BlockTiling : public Tiling {
  public:
-  /// Blocks of `blockCells` along the kernel axes, in patches of up to `most` cells along each.
+  /// Divides blocks of `blockCells` cells along the kernel axes into patches of up to `most` cells along each axis.
   BlockTiling(BlockTree tree, const Index3& blockCells, const Index3& most);
 
   const BlockTree& tree() const { return tree_; }
@@ -27,15 +27,15 @@ class BlockTiling : public Tiling {
   int patchAfter(std::uint64_t cells) const override;
 
  private:
-  /// The patch of a block that is a leaf; -1 if it is not a leaf.
+  /// The patch of a block, or -1 if the block is not a leaf.
   int patchOf(const BlockId& block) const;
 
   BlockTree tree_;
   Index3 block_cells_;
   std::vector<PatchBox> patches_;
-  std::vector<int> patch_of_leaf_;                ///< by place of the leaf on the curve
-  std::vector<std::vector<int>> patch_of_block_;  ///< by level and block, x fastest; or empty, see tablesOf
-  std::vector<std::uint64_t> cells_before_;       ///< by patch, and of all
+  std::vector<int> patch_of_leaf_;                ///< index: position of the leaf on the curve
+  std::vector<std::vector<int>> patch_of_block_;  ///< indices: level and block, x fastest; may be empty, see tablesOf
+  std::vector<std::uint64_t> cells_before_;       ///< number of cells before each patch; the last element is the total
 };
 
 }  // namespace tushar::grid

@@ -12,12 +12,12 @@ namespace tushar::grid {
 
 namespace {
 
-constexpr int mostPlaceBits = 20;  ///< bits of the coordinate of a block of the finest level along an axis
+constexpr int mostPlaceBits = 20;  ///< number of bits of a block's coordinate on the finest level
 constexpr int keyLevelBits = 4;
 constexpr int mostTreeLevels = 1 << keyLevelBits;
 constexpr std::uint64_t keyLevelMask = mostTreeLevels - 1;
 
-/// The lowest 21 bits, each followed by two bits of 0.
+/// Spreads the lowest 21 bits, so that each is followed by two zero bits.
 constexpr std::uint64_t spreadBits(std::uint64_t bits) {
   bits &= 0x1fffff;
   bits = (bits | bits << 32) & 0x001f00000000ffff;
@@ -27,7 +27,7 @@ constexpr std::uint64_t spreadBits(std::uint64_t bits) {
   return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// Every third bit, from the lowest on.
+/// Extracts every third bit, starting with the lowest: the inverse of spreadBits.
 constexpr int gatherBits(std::uint64_t bits) {
   bits &= 0x1249249249249249;
   bits = (bits | bits >> 2) & 0x10c30c30c30c30c3;
@@ -41,7 +41,7 @@ BlockId parentOf(const BlockId& block) {
   return {block.level - 1, {{block.at[0] >> 1, block.at[1] >> 1, block.at[2] >> 1}}};
 }
 
-/// Calls `visit(offset)` for 0 and 1 along each of the first `dimension` axes, along the curve.
+/// Calls `visit(offset)` for all offsets 0 or 1 along each of the first `dimension` axes, in the order of the curve.
 template <class Visit>
 void forEachCorner(int dimension, Visit&& visit) {
   for (int corner = 0; corner < 1 << dimension; ++corner) visit(Index3{{corner & 1, corner >> 1 & 1, corner >> 2 & 1}});
@@ -67,8 +67,8 @@ void checkTree(int dimension, const Index3& roots, int levels) {
 std::strong_ordering operator<=>(const BlockId& a, const BlockId& b) {
   const int finer = std::max(a.level, b.level);
   std::strong_ordering order = a.level <=> b.level;
-  // The highest bit in which the places differ along any axis decides; if several are equally high, that of the last
-  // axis.
+  // The highest bit in which the places differ along any axis decides; if several axes differ in this bit, the last
+  // one.
   int highest = 0;
   for (int d = 0; d < 3; ++d) {
     const std::int64_t first = std::int64_t{a.at[d]} << (finer - a.level);
@@ -123,7 +123,7 @@ int BlockTree::levelAt(const BlockId& block) const {
   std::optional<BlockId> place = inside(block);
   if (!place) return -1;
   while (place->level >= levels_) place = parentOf(*place);
-  // The last of the leaves that do not come after the block's lower corner holds that corner.
+  // The last leaf that does not come after the block's lower corner on the curve contains this corner.
   const auto after = std::upper_bound(keys_.begin(), keys_.end(), keyOf(*place) | keyLevelMask);
   return std::min(static_cast<int>(*(after - 1) & keyLevelMask), block.level + 1);
 }
@@ -163,7 +163,8 @@ BlockTree BlockTree::withRefined(std::vector<Keys> refined) const {
 }
 
 void BlockTree::addRefinedAround(const BlockId& block, Keys& coarser) const {
-  // The parents of all blocks around this one: its own, and the next one on the side on which the block lies in it.
+  // The parents of all blocks around this one: along each axis, its own parent, and the neighbour of that on the side
+  // where the block lies within its parent.
   const BlockId parent = parentOf(block);
   forEachCorner(dimension_, [&](const Index3& corner) {
     BlockId around = parent;
@@ -202,7 +203,7 @@ BlockTree BlockTree::fromKeys(int dimension, const Index3& roots, const Index3& 
     if (const std::optional<BlockId> parent = unrefined.inside(parentOf(unrefined.blockOf(key))))
       refined[level - 1].push_back(unrefined.keyOf(*parent));
   }
-  // The keys of a tree: leaves that are wrong or missing make them differ.
+  // Builds a tree anew: if leaves are wrong or missing, its keys differ from the given ones.
   BlockTree tree = unrefined.withRefined(std::move(refined));
   if (tree.keys_ != keys)
     throw std::invalid_argument(

@@ -21,13 +21,14 @@ enum class BoundaryKind { symmetry, dirichlet, neumann };
 inline constexpr std::array<std::string_view, 3> boundaryKindNames{"symmetry", "Dirichlet", "Neumann"};
 constexpr std::string_view nameOf(BoundaryKind kind) { return boundaryKindNames[static_cast<std::size_t>(kind)]; }
 
-/// A variable for which a scene may give conditions, of any type. Two with the same name are the same variable.
+/// A variable of any type for which a scene may give conditions. Variables with the same name are the same variable.
 struct BoundaryVariable {
   std::string_view name;  ///< the `label` attribute of a `BCType`
   bool isVector = false;  ///< whether its value is a vector
-  bool isEven = false;    ///< may be given on a symmetry plane; for a vector, if it is parallel to the plane
+  /// Whether a condition is also allowed on a symmetry plane; for a vector, if the vector is parallel to the plane.
+  bool isEven = false;
 
-  /// The same variable, which may also be given on a symmetry plane.
+  /// The same variable, but conditions for it are also allowed on symmetry planes.
   constexpr BoundaryVariable evenOnPlanes() const { return {name, isVector, true}; }
   friend constexpr bool operator==(const BoundaryVariable& a, const BoundaryVariable& b) { return a.name == b.name; }
 };
@@ -40,19 +41,19 @@ struct BoundaryLabel : BoundaryVariable {
   constexpr explicit BoundaryLabel(std::string_view called) : BoundaryVariable{called, std::is_same_v<T, Vec3>} {}
 };
 
-/// Not a variable, but the whole state, mirrored at a symmetry plane.
+/// Stands for the whole state, which a symmetry plane mirrors, not for a single variable.
 inline constexpr BoundaryVariable symmetric{"Symmetric"};
 
 /// One `BCType` of a `Face`: the condition for a variable at a side of the domain.
 struct BoundaryCondition {
   BoundaryVariable variable;
   BoundaryKind kind;
-  Vec3 value = Vec3::Zero();  ///< a number is in the first component; the unit is the variable's
+  Vec3 value = Vec3::Zero();  ///< the value, in the unit of the variable; a scalar is in the first component
   int material = -1;          ///< index of the material to which it applies; -1: all
   /// Formulas instead of the value, for components that support them; a scalar is in the first component.
   std::shared_ptr<const input::VectorExpression> formula = {};
 
-  /// Whether it applies to a material.
+  /// Whether the condition applies to a material.
   bool isOf(int number) const { return material < 0 || material == number; }
 };
 
@@ -60,11 +61,12 @@ struct BoundaryCondition {
 template <class T>
 struct BoundaryValue {
   BoundaryKind kind;
-  T value;                                           ///< the unit is the variable's, per metre for Neumann
-  const input::VectorExpression* formula = nullptr;  ///< the formula instead of the value, or null
+  /// The value, in the unit of the variable; per metre for Neumann conditions.
+  T value;
+  const input::VectorExpression* formula = nullptr;  ///< the formula that replaces the value, or null
 
   bool isDirichlet() const { return kind == BoundaryKind::dirichlet; }
-  /// The value at a place [m] and a time [s].
+  /// The value at a position [m] and a time [s].
   T at(const Vec3& x, double time) const { return formula ? of((*formula)(x, time)) : value; }
   /// Converts a condition of a scene.
   static BoundaryValue of(const BoundaryCondition& condition) {
@@ -80,19 +82,20 @@ struct BoundaryValue {
   }
 };
 
-/// A part of a side, and its conditions.
+/// A part of a side with its own conditions.
 struct ConditionsOfPart {
   SidePart shape;
   std::vector<BoundaryCondition> conditions;
 };
 
-/// Used as the index of a part: the rest of a side, outside all its parts.
+/// The part index that stands for the rest of a side, outside all its parts.
 inline constexpr int restOfSide = -1;
 
-/// The conditions of the six faces x-, x+, y-, y+, z-, z+ in this order. A face with none is free.
+/// The conditions at the faces x-, x+, y-, y+, z-, z+, in this order. A face without conditions is open.
 ///
-/// Parts of a side have conditions of their own. There those of the whole side hold for no material that a part has
-/// conditions for; where a part has none at all, for none.
+/// Parts of a side may have their own conditions. On a part, these replace the conditions of the whole side for the
+/// materials that they concern. On a part without any conditions, the conditions of the whole side apply to no
+/// material.
 struct BoundaryConditions {
   std::array<std::vector<BoundaryCondition>, 6> faces;
   std::array<std::vector<ConditionsOfPart>, 6> parts;

@@ -7,7 +7,7 @@
 
 namespace tushar::grid {
 
-/// Index of the next coarser cell along an axis, rounded down even below 0.
+/// Index of the next coarser cell along an axis, rounded down, also for negative indices.
 constexpr int coarserCell(int cell) { return cell >= 0 ? cell / 2 : -((1 - cell) / 2); }
 
 /// A half-open box of cells or nodes, [lower, upper) along each axis.
@@ -64,7 +64,7 @@ struct Box {
     return both;
   }
 
-  /// This box, larger by `width` on both sides along the first `dimension` axes.
+  /// This box, enlarged by `width` on both sides along the first `dimension` axes.
   constexpr Box grown(int width, int dimension) const {
     Box box = *this;
     for (int d = 0; d < dimension; ++d) {
@@ -83,7 +83,7 @@ struct Box {
     }
     return fine;
   }
-  /// The cells of the next coarser level around this box of cells.
+  /// The smallest box of cells of the next coarser level that contains this box of cells.
   constexpr Box coarsened(int dimension) const {
     Box coarse = *this;
     for (int d = 0; d < dimension; ++d) {
@@ -95,7 +95,7 @@ struct Box {
 
   constexpr Box shifted(const Index3& by) const { return {lower + by, upper + by}; }
 
-  /// The nodes of this box of cells: one more along each of the first `dimension` axes.
+  /// The nodes of the cells in this box: one more than cells along each of the first `dimension` axes.
   constexpr Box nodes(int dimension) const {
     Box box = *this;
     for (int d = 0; d < dimension; ++d) ++box.upper[d];
@@ -120,8 +120,8 @@ inline void forEach(const Box& box, Visit&& visit) {
   }
 }
 
-/// Calls `visit(first, count)` for each row of `count` cells or nodes of the box along the first axis, in the order of
-/// forEach.
+/// Calls `visit(first, count)` for each row of the box along the first axis, in the order of forEach; a row has `count`
+/// cells or nodes.
 template <int D, class Visit>
 inline void forEachRow(const Box& box, Visit&& visit) {
   if (!box.empty()) forEach<D>(box.rowStarts(), [&](const Index<D>& first) { visit(first, box.extent(0)); });

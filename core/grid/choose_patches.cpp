@@ -8,11 +8,13 @@ namespace tushar::grid {
 
 namespace {
 
-constexpr int patchesPerWorker = 4;  ///< several, so that a thread that finishes early can take more
+/// Patches per worker: several, so that a thread that finishes early can start another one.
+constexpr int patchesPerWorker = 4;
 
 double countOf(const Index3& cells) { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
 
-/// Cells of the largest patch, including one layer of ghosts at its cuts, times the number of patches.
+/// Cost of a division: the cells of the largest patch with one layer of ghosts at its cuts, times the number of
+/// patches.
 double costOf(const Index3& cells, const Index3& patches) {
   double cost = 1;
   for (int d = 0; d < 3; ++d) {

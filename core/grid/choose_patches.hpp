@@ -7,31 +7,33 @@
 
 namespace tushar::grid {
 
-inline constexpr int cellsPerThread = 8192;  ///< with fewer cells, an additional thread does not pay off
+/// Smallest number of cells per thread for which an additional thread pays off.
+inline constexpr int cellsPerThread = 8192;
 
-/// How many threads, from 1 to `most`, pay off for a number of cells.
+/// The number of threads, from 1 to `most`, that pay off for `cells` cells if each thread needs at least
+/// `cellsOfThread`.
 int usefulThreads(double cells, int cellsOfThread, int most);
 
 /// The ranks and threads that work on a grid.
 struct Workers {
   int threads = 1;          ///< number of threads of each rank
-  bool mayBeFewer = false;  ///< whether to use only as many threads as pay off
+  bool mayBeFewer = false;  ///< whether to use fewer threads if not all pay off
   int ranks = 1;
-  std::optional<Index3> layout;  ///< patches along x, y, z; overrides those of the scene
+  std::optional<Index3> layout;  ///< patches along x, y, z; overrides the patches in the scene
 
   /// Number of threads of each rank for a grid of `cells` along x, y, z: a thread with too few cells costs more than it
   /// saves.
   int threadsFor(const Index3& cells) const;
-  /// Number of patches that share the work evenly: one if there is one worker.
+  /// Number of patches with which the work is distributed evenly; 1 for a single worker.
   int patchesFor(const Index3& cells) const;
 };
 
 /// The division of a grid of `cells` along x, y, z into about `count` patches: of all divisions into `count` to 1.25
-/// `count` patches, the one with the fewest cells and ghost cells in total, if each patch is as large as the largest.
-/// No more patches along an axis than cells. Along x, where memory is contiguous, it is cut last.
+/// `count` patches, the one with the fewest cells and ghost cells in total, assuming that each patch is as large as the
+/// largest. Never more patches along an axis than cells. Along x, where memory is contiguous, the grid is divided last.
 Index3 choosePatches(const Index3& cells, int count);
 
-/// Parses a layout such as `4x2x1`, patches along x, y, z; none unless it is three positive integers.
+/// Parses a layout such as `4x2x1` (patches along x, y, z); returns none unless it consists of three positive integers.
 std::optional<Index3> parseLayout(std::string_view text);
 
 }  // namespace tushar::grid

@@ -5,7 +5,7 @@
 
 namespace tushar::grid {
 
-/// The patches of a grid of one level, which is cut along each axis. Needs no memory per patch.
+/// The patches of a grid of one level, divided by cuts along each axis. Needs no memory per patch.
 class CutTiling : public Tiling {
  public:
   explicit CutTiling(MortonCurve::Cuts cuts) : curve_(std::move(cuts)) {}

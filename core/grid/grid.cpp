@@ -147,8 +147,9 @@ void Grid::makePatches() {
     if (levels() > 1) rims_.push_back(rimsOf(*this, patch));
 }
 
-/// Whether the patch behind the upper face owns its nodes. Not so for a patch that is no thicker than the layers of
-/// nodes beyond the grid at its other side: these mirror the nodes of the face.
+/// Whether the patch behind the upper face of `patch` owns the nodes of this face. This is not so if `patch` is no
+/// thicker than the layers of nodes outside the grid at its lower side, because those nodes mirror the nodes of the
+/// face.
 bool Grid::sharesUpperFace(const Patch& patch, int kernelAxis) const {
   const Level& level = patch.level();
   const int face = patch.cells().upper[kernelAxis];

@@ -19,7 +19,7 @@ class Grid;
 template <class T>
 class BoundarySides;
 
-/// A uniform grid as a scene describes it, in metres along x, y and z.
+/// A uniform grid as described by a scene [m].
 struct Domain {
   Vec3 lower = Vec3::Zero();
   Vec3 upper = Vec3::Ones();
@@ -28,65 +28,66 @@ struct Domain {
   bool mayRecut = false;         ///< whether the cuts between patches may follow the particles (see Grid::recut)
   Index3 periodic{};             ///< 1 along periodic axes
   int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic, for wide shape functions
-  Refinement refinement;         ///< no refinement by default
+  Refinement refinement;         ///< permitted refinement; none by default
   BoundaryConditions boundaries;
 };
 
-/// A grid of cells of one size: its geometry and its boundary conditions. A run's grid has one or several levels, each
-/// with half the cell width of the one before (see Grid); cells and nodes are counted on each level from 0.
+/// A grid of cells of one size: its geometry and its boundary conditions. The grid of a run has one or several levels,
+/// each with half the cell width of the previous level (see Grid); on each level, cells and nodes are counted from 0.
 ///
-/// Kernels run in `dimension()` axes. An axis of the scene is left out when it has no extent, or has one cell
-/// between two symmetry planes or repeats one cell; the axes that remain keep their order.
+/// Kernels use `dimension()` axes. An axis of the scene is omitted if it has no extent, or has one cell between two
+/// symmetry planes or one periodic cell; the other axes keep their order.
 ///
-/// Along a periodic axis cells and nodes are numbered on beyond both ends: those outside the grid are images of those
-/// inside, and ghosts of the patches there.  The first and the last node of the grid are one and the same; both patches
-/// complete it.
+/// Along a periodic axis, cell and node indices continue beyond both ends: outside the grid they refer to images of the
+/// cells inside, and to ghosts of the patches there. The first and the last node of the grid are the same point; the
+/// patches at both ends complete its values.
 class Level {
  public:
   explicit Level(const Domain& domain) : Level(domain, 0, 1, nullptr) {}
-  /// Level `number` of the `levels` of a grid, which must outlive it: `domain`'s cells are halved `number` times.
+  /// Constructs level `number` of the `levels` levels of `grid`, which must outlive it: `domain`'s cells are halved
+  /// `number` times.
   Level(const Domain& domain, int number, int levels, const Grid* grid);
   Level(const Level&) = delete;
   Level& operator=(const Level&) = delete;
 
-  /// 0 for the coarsest.
+  /// Index of the level; 0 is the coarsest.
   int number() const { return number_; }
-  /// The grid that this level belongs to, which has the patches; only if there is one.
+  /// The grid to which this level belongs; only if there is one.
   const Grid& grid() const { return *grid_; }
-  /// The finest level of that grid; this one if there are no finer ones.
+  /// The finest level of the grid; this one if there are no finer levels.
   const Level& finest() const;
   int dimension() const { return static_cast<int>(axes_.size()); }
-  /// The scene's axis (0 for x, 1 for y, 2 for z) that corresponds to a kernel axis.
+  /// The axis of the scene (0: x, 1: y, 2: z) that corresponds to a kernel axis.
   int axis(int kernelAxis) const { return axes_[kernelAxis]; }
 
-  /// Every cell of the grid; lower is always 0.
+  /// All cells of the grid on this level; the lower corner is always 0.
   const Box& cells() const { return cells_; }
-  /// Every node, including those outside the grid.
+  /// All nodes, including those outside the grid.
   Box nodes() const;
-  /// The nodes of the cells of the grid.
+  /// The nodes of the grid's cells.
   Box nodesOfCells() const { return cells_.nodes(dimension()); }
-  /// The part of a box of cells that lies on the grid or, along periodic axes, on its images.
+  /// The part of a box of cells that lies on the grid or, along periodic axes, on its periodic images.
   Box clipCells(const Box& cells) const { return clip(cells, cells_); }
   Box clipNodes(const Box& nodes) const { return clip(nodes, this->nodes()); }
-  /// The scene's description of the grid, with the cells of this level.
+  /// The description of the grid in the scene, with the cells of this level.
   const Domain& domain() const { return domain_; }
 
-  /// Cell width along a kernel axis, m.
+  /// Cell width along a kernel axis [m].
   double spacing(int kernelAxis) const { return spacing_[kernelAxis]; }
-  /// 1 over the cell width, 1/m, so that kernels convert metres to cells without a division.
+  /// Inverse cell width [1/m], which lets kernels convert metres to cells without a division.
   double inverseSpacing(int kernelAxis) const { return inverse_spacing_[kernelAxis]; }
-  /// Cell width along an axis of the scene, m; 0 if the grid has no extent.
+  /// Cell width along an axis of the scene [m]; 0 if the grid has no extent along it.
   double cellWidth(int axis) const { return (domain_.upper[axis] - domain_.lower[axis]) / domain_.resolution[axis]; }
-  /// The smallest cell width, m.
+  /// The smallest cell width over all axes [m].
   double minSpacing() const;
-  /// Volume of a cell, m³; an axis without extent counts as 1 m.
+  /// Volume of a cell [m³]; an axis without extent counts as 1 m.
   double cellVolume() const { return cellVolume_; }
-  /// The ratio of the volume of a cell to that of a cell of the coarsest level: a power of two.
+  /// The ratio of the volume of a cell to that of a cell of the coarsest level, a power of two.
   double weight() const { return std::ldexp(1.0, -number_ * dimension()); }
-  /// Position of a node along a kernel axis, m.
+  /// Position of a node along a kernel axis [m].
   double nodePosition(int kernelAxis, int node) const { return lower_[kernelAxis] + node * spacing(kernelAxis); }
 
-  /// The centre of a cell, m.
+  /// The centre of a cell [m].
   template <int D>
   Vec<D> cellCentre(const Index<D>& cell) const {
     Vec<D> centre;
@@ -94,8 +95,9 @@ class Level {
     return centre;
   }
 
-  /// The cell that contains a coordinate along a kernel axis: the c with nodePosition(c) <= x < nodePosition(c+1). The
-  /// upper end of the grid belongs to the last cell; outside the grid -1 or the number of cells.
+  /// The index of the cell that contains coordinate x along a kernel axis: the c with nodePosition(c) <= x <
+  /// nodePosition(c+1). The upper end of the grid belongs to the last cell. Outside the grid, returns -1 or the number
+  /// of cells.
   int cellAlong(int kernelAxis, double x) const;
   template <int D>
   Index<D> cellOf(const Vec<D>& x) const {
@@ -104,14 +106,14 @@ class Level {
     return cell;
   }
 
-  /// The cells of the grid near a box in space [m]: at least those that it touches.
+  /// The cells of the grid near a box in space [m]: at least all cells that it touches.
   Box cellsNear(const Vec3& lower, const Vec3& upper) const;
-  /// The axes that the grid does not use: `y, z`, or nothing.
+  /// The axes that the grid does not use, as text such as `y, z`; empty if it uses all.
   std::string axesLeftOut() const;
   /// The periodic images of the grid that contain cells of a box, as shifts in cells: cell c + shift is an image of c.
-  /// Zero among them where the box holds cells of the grid.
+  /// The zero shift is among them if the box contains cells of the grid itself.
   std::vector<Index3> imagesOverlapping(const Box& cells) const;
-  /// The cell of the grid of which a cell is an image along periodic axes.
+  /// The cell of the grid whose periodic image a given cell is.
   template <int D>
   Index<D> wrapped(Index<D> cell) const {
     for (int d = 0; d < std::min(D, dimension()); ++d) {
@@ -120,8 +122,8 @@ class Level {
     }
     return cell;
   }
-  /// Index of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches. Where there are
-  /// finer levels, that of the first of its cells of the finest.
+  /// Index of a cell in lexicographic order, x fastest, starting at 0; independent of the patches. If there are finer
+  /// levels, returns the index of the first of the finest cells in this cell.
   template <int D>
   std::uint64_t cellNumber(const Index<D>& cell) const {
     std::uint64_t number = 0;
@@ -138,14 +140,14 @@ class Level {
     for (int d = 0; d < D; ++d) reduced[d] = v[axis(d)];
     return reduced;
   }
-  /// A direction along x, y, z, from one along the kernel axes: zero along the unused axes.
+  /// Converts a direction from kernel axes to x, y, z: zero along the unused axes.
   template <int D>
   Vec3 expandDirection(const Vec<D>& v) const {
     Vec3 full = Vec3::Zero();
     for (int d = 0; d < D; ++d) full[axis(d)] = v[d];
     return full;
   }
-  /// A point in x, y, z, from one along the kernel axes: the middle of the domain along the unused axes.
+  /// Converts a point from kernel axes to x, y, z: the middle of the domain along the unused axes.
   template <int D>
   Vec3 expandPoint(const Vec<D>& x) const {
     Vec3 full = 0.5 * (domain_.lower + domain_.upper);
@@ -153,15 +155,15 @@ class Level {
     return full;
   }
 
-  /// The condition for a variable of a material on a part of a side of the grid (`side` 0: lower, 1: upper), or on the
-  /// rest of it, if the scene gives one.
+  /// The condition that the scene gives for a variable of a material on a part of a side of the grid, or on the rest of
+  /// the side; none if the scene gives none. `side` 0: lower, 1: upper.
   template <class T>
   std::optional<BoundaryValue<T>> boundary(int kernelAxis, int side, const BoundaryLabel<T>& variable, int material = 0,
                                            int part = restOfSide) const {
     const BoundaryCondition* found = condition(kernelAxis, side, variable, material, part);
     return found ? std::optional(BoundaryValue<T>::of(*found)) : std::nullopt;
   }
-  /// The conditions for a variable on all sides, for kernels that visit the cells of a patch.
+  /// Looks up the conditions for a variable on all sides, for kernels that visit the cells of a patch.
   template <class T>
   BoundarySides<T> sides(const BoundaryLabel<T>& variable, int material = 0) const;
   /// The parts of a side that have their own conditions.
@@ -175,7 +177,7 @@ class Level {
     return parts(kernelAxis, side).empty() ? restOfSide
                                            : partOf(kernelAxis, side, middleOfSide<D>(kernelAxis, side, cell));
   }
-  /// The centre of a cell's face, projected onto a side of the grid, m.
+  /// The centre of a cell's face, projected onto a side of the grid [m].
   template <int D>
   Vec3 middleOfSide(int kernelAxis, int side, const Index<D>& cell) const {
     Index<D> nearest = wrapped<D>(cell);
@@ -186,7 +188,7 @@ class Level {
   }
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
-  /// The period along a kernel axis, m.
+  /// The period along a kernel axis [m].
   double period(int kernelAxis) const {
     return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0);
   }
@@ -202,7 +204,7 @@ class Level {
   Box clip(const Box& box, const Box& grid) const;
   void measure();
 
-  int number_ = 0, halvings_ = 0;  ///< number of this level, and of the halvings from it to the finest level
+  int number_ = 0, halvings_ = 0;  ///< index of this level, and the number of halvings from here to the finest level
   const Grid* grid_ = nullptr;
   Domain domain_;
   std::vector<int> axes_;
@@ -212,7 +214,7 @@ class Level {
   Box cells_;
 };
 
-/// The conditions for one variable at both sides of each kernel axis, looked up once: see Level::sides.
+/// The conditions for one variable at both sides of each kernel axis, looked up once; see Level::sides.
 template <class T>
 class BoundarySides {
  public:
@@ -230,7 +232,7 @@ class BoundarySides {
   const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side) const {
     return sides_[numberOf(kernelAxis, side)].rest;
   }
-  /// The condition at the face of a cell on a side.
+  /// The condition on a cell's face that lies on a side of the grid.
   template <int D>
   const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side, const Index<D>& cell) const {
     const Side& at = sides_[numberOf(kernelAxis, side)];

@@ -8,15 +8,15 @@
 
 namespace tushar::grid {
 
-/// Blocks between cuts along each axis, in Morton order (G. M. Morton, A Computer Oriented Geodetic Data Base and a New
-/// Technique in File Sequencing, IBM 1966): neighbours on the curve are near in space, so consecutive blocks have few
-/// faces to others.
+/// The blocks of a grid that is cut along each axis, in Morton order (G. M. Morton, A Computer Oriented Geodetic Data
+/// Base and a New Technique in File Sequencing, IBM 1966): neighbours on the curve are close in space, so consecutive
+/// blocks have few faces to other blocks.
 ///
-/// Any number of blocks along an axis. Nothing is kept for each block: a place is found by halving the grid, in as many
-/// steps as the number of blocks has bits.
+/// The number of blocks along an axis is arbitrary. Nothing is stored for individual blocks: a position is found by
+/// halving the grid, in as many steps as the number of blocks has bits.
 class MortonCurve {
  public:
-  /// `cuts[d]`: the first cell of each block along axis d, then the end.
+  /// `cuts[d]`: the first cell of each block along axis d, followed by the end of the last block.
   using Cuts = std::array<std::vector<int>, 3>;
   explicit MortonCurve(Cuts cuts);
 
@@ -28,22 +28,22 @@ class MortonCurve {
   Index3 blockAt(int place) const;
   /// The cells of a block.
   Box cellsAt(const Index3& block) const;
-  /// Number of cells of all blocks before a position.
+  /// Number of cells in all blocks before a position on the curve.
   std::uint64_t cellsBefore(int place) const;
-  /// The first position before which there are at least `cells` cells.
+  /// The first position on the curve before which there are at least `cells` cells.
   int placeAfter(std::uint64_t cells) const;
   /// The block along an axis that contains a cell.
   int blockAlong(int axis, int cell) const;
 
  private:
   std::uint64_t cellsOf(const Box& blocks) const;
-  /// Halves the grid down to one block, and returns it; `isUpper(lower half, axis)` chooses the half.
+  /// Halves the grid repeatedly down to one block, which it returns; `isUpper(lower half, axis)` chooses the half.
   template <class IsUpper>
   Index3 descend(IsUpper&& isUpper) const;
 
   Cuts cuts_;
-  Box all_;       ///< all blocks
-  int bits_ = 0;  ///< bits of the largest index of a block along an axis
+  Box all_;       ///< box of all blocks
+  int bits_ = 0;  ///< number of bits of the largest block index along an axis
 };
 
 }  // namespace tushar::grid

@@ -4,8 +4,8 @@
 
 namespace tushar::grid {
 
-// By default the cuts are at rank · cells / ranks, and a patch belongs to the rank whose cuts enclose its middle: thus
-// of halves with 61 and 62 cells each of two ranks gets one. Patch 0 belongs to rank 0.
+// By default, the cells are cut at rank · cells / ranks, and a patch belongs to the rank whose cuts enclose the middle
+// of the patch. So if two patches have 61 and 62 cells, each of two ranks gets one. Patch 0 belongs to rank 0.
 
 int Partition::firstOf(int rank) const {
   if (!offsets_.empty()) return offsets_[rank];
@@ -23,7 +23,7 @@ int Partition::ownerOf(int patch) const {
   return static_cast<int>((twiceMiddle(patch) * static_cast<std::uint64_t>(ranks_) - 1) / (2 * tiling_->cells()));
 }
 
-/// Twice the number of cells before the middle of a patch.
+/// Twice the number of cells before the middle of a patch (twice, so that the number is an integer).
 std::uint64_t Partition::twiceMiddle(int patch) const {
   return tiling_->cellsBefore(patch) + tiling_->cellsBefore(patch + 1);
 }

@@ -7,22 +7,22 @@
 
 namespace tushar::grid {
 
-/// One of the ranks that share a grid.
+/// The share of one rank in a grid.
 struct Share {
   int rank = 0, ranks = 1;
 };
 
-/// The distribution of patches to ranks: each rank has consecutive patches.
+/// The distribution of patches over ranks: each rank has consecutive patches.
 class Partition {
  public:
-  /// Distributes patches so that numbers of cells are as equal as whole patches allow. Needs no memory per rank. Rank 0
+  /// Distributes patches so that the ranks have numbers of cells as equal as possible. Needs no memory per rank. Rank 0
   /// always has a patch.
   Partition(const Tiling& tiling, int ranks) : tiling_(&tiling), ranks_(ranks) {}
   /// Distributes patches as given.
   Partition(const Tiling& tiling, RankOffsets offsets)
       : tiling_(&tiling), ranks_(static_cast<int>(offsets.size()) - 1), offsets_(std::move(offsets)) {}
 
-  /// The first patch of a rank; for a rank without patches, that of the next rank.
+  /// The first patch of a rank; for a rank without patches, the first patch of the next rank.
   int firstOf(int rank) const;
   int ownerOf(int patch) const;
 
@@ -31,7 +31,7 @@ class Partition {
 
   const Tiling* tiling_;
   int ranks_;
-  RankOffsets offsets_;  ///< empty: distribution by cells
+  RankOffsets offsets_;  ///< empty if patches are distributed by numbers of cells
 };
 
 }  // namespace tushar::grid

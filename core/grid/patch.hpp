@@ -8,8 +8,8 @@ class Level;
 
 /// A box of cells of the grid, the unit of work of a task.
 ///
-/// A patch has all nodes of its cells: those on a face between two patches belong to both, and both complete
-/// them from the same particles in the same order, so they hold the same bits.
+/// A patch has all nodes of its cells. Nodes on a face between two patches belong to both; both patches complete their
+/// values from the same particles in the same order, so the values are bitwise equal.
 class Patch {
  public:
   Patch(const Level& level, int id, const Box& cells) : level_(&level), id_(id), cells_(cells) {}
@@ -17,17 +17,17 @@ class Patch {
   int id() const { return id_; }
   const Level& level() const { return *level_; }
   const Box& cells() const { return cells_; }
-  /// The nodes of the patch's cells, and those outside the sides of the grid that it touches.
+  /// The nodes of the patch's cells and, if the patch touches sides of the grid, the nodes outside these sides.
   Box nodes() const;
-  /// Cells within `width` of the patch that are on the grid or, along periodic axes, on its images.
+  /// Cells within `width` of the patch that lie on the grid or, along periodic axes, on its periodic images.
   Box cellsWithin(int width) const;
-  /// Nodes within `width` of the patch's nodes that are on the grid or, along periodic axes, on its images.
+  /// Nodes within `width` of the patch's nodes that lie on the grid or, along periodic axes, on its periodic images.
   Box nodesWithin(int width) const;
   /// Whether a side (0: lower, 1: upper) along a kernel axis is a side of the grid; always false along a periodic axis.
   bool isAtBoundary(int kernelAxis, int side) const;
   /// The patch's nodes on one of its sides.
   Box faceNodes(int kernelAxis, int side) const;
-  /// The patch's nodes outside one of its sides, at which the grid ends.
+  /// The nodes outside the grid behind one of the patch's sides.
   Box nodesBeyond(int kernelAxis, int side) const;
 
  private:

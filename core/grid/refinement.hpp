@@ -10,16 +10,17 @@ namespace tushar::grid {
 /// A box in space with a minimum level of refinement.
 struct FineRegion {
   int level = 1;
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< lower and upper corner [m]
 };
 
-/// The possible refinement of a grid: its levels, and its blocks of a fixed number of cells, which the scene
-/// determines. Patches are boxes of blocks of one level, chosen for speed alone.
+/// How a grid may be refined: its levels, and the number of cells in each of its blocks. The scene determines both.
+/// Patches are boxes of blocks of one level, chosen for speed alone.
 struct Refinement {
   int levels = 1;                ///< largest number of levels, including the coarsest
-  Index3 blockCells{{8, 8, 8}};  ///< cells of a block along x, y, z
+  Index3 blockCells{{8, 8, 8}};  ///< number of cells of a block along x, y, z
   std::optional<Index3>
-      blocksPerPatch;  ///< largest number along x, y, z; if not given, depends on the threads and ranks
+      /// Largest number of blocks in a patch along x, y, z; if not given, it depends on the threads and ranks.
+      blocksPerPatch;
   std::vector<FineRegion> regions;
 };
 

@@ -7,7 +7,7 @@ namespace tushar::grid {
 
 namespace {
 
-/// Fills each rank up to at most `most`; the last rank gets the rest.
+/// Assigns consecutive patches to each rank as long as their cost is at most `most`; the last rank gets the rest.
 RankOffsets filledUpTo(double most, const std::vector<double>& costs, int ranks) {
   RankOffsets offsets{0};
   double share = 0;

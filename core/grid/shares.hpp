@@ -4,14 +4,14 @@
 
 namespace tushar::grid {
 
-/// A distribution of patches to ranks: rank r has those from `offsets[r]` to `offsets[r + 1]`.
+/// A distribution of patches over ranks: rank r has the patches from `offsets[r]` up to but excluding `offsets[r + 1]`.
 using RankOffsets = std::vector<int>;
 
-/// Distributes consecutive patches to `ranks` ranks so that the largest sum of `costs` on a rank is as small as
+/// Distributes consecutive patches over `ranks` ranks so that the largest sum of `costs` on any rank is as small as
 /// possible. Rank 0 always has a patch.
 RankOffsets evenShares(const std::vector<double>& costs, int ranks);
 
-/// The sum of costs on the busiest rank.
+/// The sum of the costs on the busiest rank.
 double greatestShare(const std::vector<double>& costs, const RankOffsets& offsets);
 
 }  // namespace tushar::grid

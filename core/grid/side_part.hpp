@@ -8,22 +8,24 @@
 
 namespace tushar::grid {
 
-/// The shapes of a part of a side: the attributes of a `Face` that name its side.
+/// The shapes that a part of a side can have. Each is an attribute of `Face`, whose value is the side to which the part
+/// belongs.
 inline constexpr std::array<std::string_view, 5> sidePartNames{"circle", "annulus", "ellipse", "rectangle",
                                                                "rectangulus"};
 
-/// A part of a side of the grid. Its rim belongs to it, the rim of its hole does not, each to within a billionth of its
-/// size, so that round-off does not make a jet lopsided. Coordinates across the side do not matter.
+/// A part of a side of the grid. The outer rim belongs to the part, the rim of a hole does not. Both hold with a
+/// tolerance of a billionth of the size, so that round-off does not make a jet lopsided. Coordinates across the side do
+/// not matter.
 class SidePart {
  public:
-  /// Points within `radius` of `origin`, m, on a side across `axis`.
+  /// The points within `radius` [m] of `origin`, on a side across `axis`.
   static SidePart circle(int axis, const Vec3& origin, double radius);
   /// The ring between two circles.
   static SidePart annulus(int axis, const Vec3& origin, double inner, double outer);
-  /// An ellipse with the semi-axes `longer` and `shorter`, m. The longer axis is turned by `degrees` from y towards z
+  /// An ellipse with the semi-axes `longer` and `shorter` [m]. The longer axis is turned by `degrees` from y towards z
   /// on x+, from z towards x on y+, from x towards y on z+, and the other way round on the opposite sides.
   static SidePart ellipse(int axis, int side, const Vec3& origin, double shorter, double longer, double degrees);
-  /// The rectangle between two corners, m.
+  /// The rectangle between two corners [m].
   static SidePart rectangle(int axis, const Vec3& lower, const Vec3& upper);
   /// The frame between two rectangles.
   static SidePart rectangulus(int axis, const std::array<Vec3, 2>& inner, const std::array<Vec3, 2>& outer);
@@ -40,7 +42,8 @@ class SidePart {
     Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
     friend bool operator==(const Corners&, const Corners&) = default;
   };
-  /// Two foci, which coincide for a circle, and the sum of the distances to them, m.
+  /// An ellipse, given by its two foci, which coincide for a circle, and the sum of the distances from its points to
+  /// them [m].
   struct Oval {
     Vec3 first = Vec3::Zero(), second = Vec3::Zero();
     double sum = 0;
@@ -50,8 +53,8 @@ class SidePart {
   bool isIn(const Oval& oval, const Vec3& x) const;
 
   int axis_ = 0;
-  Corners outer_;                ///< of a rectangle, or of the bounding box
-  std::optional<Corners> hole_;  ///< of a rectangulus
+  Corners outer_;                ///< corners of a rectangle, or of the bounding box
+  std::optional<Corners> hole_;  ///< corners of the hole of a rectangulus
   std::optional<Oval> oval_, ovalHole_;
 };
 

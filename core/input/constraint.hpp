@@ -12,19 +12,19 @@ namespace tushar::input {
 /// A condition on a number, and its wording.
 struct Constraint {
   std::function<bool(double)> holds;
-  std::string allowed;  ///< `greater than 0`, `at least 1`, `from 0 to 1`
+  std::string allowed;  ///< the condition in words: `greater than 0`, `at least 1`, `from 0 to 1`
 };
 
 Constraint greaterThan(double limit);
 Constraint lessThan(double limit);
 Constraint atLeast(double limit);
 Constraint atMost(double limit);
-/// A constraint to a range, including both ends.
+/// Restricts a number to a range, both ends included.
 Constraint between(double least, double most);
 inline Constraint positive() { return greaterThan(0); }
 inline Constraint nonNegative() { return atLeast(0); }
 
-/// A constraint on formulas for the start of a run: they must not depend on time.
+/// A constraint on formulas that are evaluated at the start of a run: they must not depend on time.
 struct WithoutTime {
   std::string allowed = "without t";
 };
@@ -41,7 +41,7 @@ bool satisfies(const VectorExpression& value, const Constraint& constraint);
 inline bool satisfies(const Expression& value, const WithoutTime&) { return !value.dependsOnTime(); }
 inline bool satisfies(const VectorExpression& value, const WithoutTime&) { return !value.dependsOnTime(); }
 
-/// `found '-1', expected a value greater than 0 m`; the unit "1" is omitted.
+/// Returns a message such as `found '-1', expected a value greater than 0 m`; the unit "1" is omitted.
 std::string violation(const std::string& found, const Constraint& constraint, const std::string& unit);
 std::string violation(const std::string& found, const WithoutTime& constraint, const std::string& unit);
 

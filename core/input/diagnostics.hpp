@@ -8,15 +8,15 @@
 
 namespace tushar::input {
 
-/// Collects all problems of a scene, so that the user sees them at once.
+/// Collects all problems of a scene, so that the user sees all of them together.
 class Diagnostics {
  public:
-  /// `tagPath` may be empty.
+  /// Reports a problem at a location; `tagPath` may be empty.
   void error(const Location& where, std::string tagPath, std::string sentence);
   /// Reports a problem with a tag or its value.
   void error(const Element& element, std::string sentence);
 
-  /// Reports something that is accepted but has no effect.
+  /// Reports an accepted setting that has no effect.
   void note(const Element& element, std::string sentence);
   void note(const Location& where, std::string tagPath, std::string sentence);
   const std::vector<InputProblem>& notes() const { return notes_; }

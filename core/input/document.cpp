@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* rootName = "Uintah_specification";
 
-/// Builds one tree from parsed files and those that they include.
+/// Builds one tree from parsed files and the files that they include.
 class TreeBuilder {
  public:
   explicit TreeBuilder(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -47,7 +47,7 @@ class TreeBuilder {
 /// The path of a file that is named in a tag.
 struct FoundFile {
   std::string path;
-  bool hasMoved = false;  ///< whether it was found elsewhere
+  bool hasMoved = false;  ///< whether the file was found elsewhere than its path says
 };
 
 bool isFile(const std::filesystem::path& path) {
@@ -55,7 +55,7 @@ bool isFile(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, unreadable);
 }
 
-/// Whether there is a pair of files of this name, as for a surface of triangles: NAME.pts and NAME.tri.
+/// Whether there is a pair of files NAME.pts and NAME.tri, which describe a surface of triangles.
 bool isPair(const std::filesystem::path& path) {
   return isFile(path.string() + ".pts") && isFile(path.string() + ".tri");
 }
@@ -88,8 +88,8 @@ bool isPath(const pugi::xml_node& xml) {
          ((parent == "tri" || parent == "line_segment") && name == "name");
 }
 
-/// Replaces the text of a tag by the absolute path of the file that it names. Scenes are moved to other folders with
-/// their files, and still name the folder where those were.
+/// Replaces the text of a tag by the absolute path of the file that it names. A scene that has been moved together with
+/// its files may still name the old folder of the files.
 void TreeBuilder::resolvePath(const XmlFile& file, Node& node) {
   const FoundFile found = findFile(node.text, file.name());
   if (found.hasMoved)
@@ -162,7 +162,8 @@ bool TreeBuilder::isCycle(const std::string& path, const Location& where) {
   return true;
 }
 
-/// The path of an included file, relative to the folder of the including file or, as in Uintah's scenes, to one above.
+/// The path of an included file. `href` is relative to the folder of the including file or, as in Uintah's scenes, to a
+/// folder above it.
 std::string findIncluded(const std::filesystem::path& beside, const std::string& href) {
   std::error_code ignored;
   const std::filesystem::path here =

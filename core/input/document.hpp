@@ -10,15 +10,16 @@
 
 namespace tushar::input {
 
-/// A scene file as a tree of tags with their locations.
+/// A scene file as a tree of tags with their locations in the file.
 ///
-/// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, its tag included (by what
-/// is below the root where no section is given; by what is below the tag with `excludeSectionTag="true"`). `href` is
-/// relative to the including file, and so is what a tag such as `<file>` names: its text becomes an absolute path, so
-/// that the scene as text() gives it finds the file from any folder.
+/// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, including its tag.
+/// Without `section`, it is replaced by the contents of the root tag, and with `excludeSectionTag="true"`, by the
+/// contents of the section's tag. `href` is relative to the including file, and so are the file names in tags such as
+/// `<file>`: their text becomes an absolute path, so that the scene that text() returns finds the files from any
+/// folder.
 class Document {
  public:
-  /// Reads a file. All problems go to `diagnostics`; the document then has a bare root.
+  /// Reads a file. Reports all problems to `diagnostics`; after an error, the document has only an empty root.
   static Document load(const std::string& path, Diagnostics& diagnostics);
   /// Reads a scene from memory, as if it were the file `name`.
   static Document parse(std::string_view text, const std::string& name, Diagnostics& diagnostics);
@@ -32,11 +33,11 @@ class Document {
   /// refer to labels in them.
   void readFirst(std::string_view path);
 
-  /// `<Uintah_specification>`.
+  /// The root tag, `<Uintah_specification>`.
   Element root() const { return Element(*root_); }
-  /// The scene as XML with includes resolved and overrides applied.
+  /// The scene as XML, with included files inserted and overrides applied.
   std::string text() const;
-  /// The path or name given to load or parse.
+  /// The path or name that was given to load or parse.
   const std::string& path() const { return path_; }
 
  private:

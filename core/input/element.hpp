@@ -10,35 +10,35 @@
 
 namespace tushar::input {
 
-/// A tag of a scene: a handle, cheap to copy, valid as long as its Document lives.
+/// A tag of a scene: a handle that is cheap to copy and valid as long as its Document exists.
 class Element {
  public:
   explicit Element(const Node& node) : node_(&node) {}
 
   const std::string& name() const { return node_->name; }
-  /// The tag's own text, without blanks at its ends.
+  /// The tag's own text, without leading and trailing blanks.
   const std::string& text() const { return node_->text; }
-  /// The place of the tag's name, or the option that overrides it.
+  /// The location of the tag's name, or of the option that overrides the tag.
   const Location& where() const { return node_->where; }
   /// The path of tags from the root (excluded) down to this one: `Grid/Level/Box/resolution`.
   std::string path() const;
 
   std::optional<std::string> attribute(std::string_view name) const;
-  /// The place of an attribute; that of the tag if the attribute is not given.
+  /// The location of an attribute, or of the tag if the attribute is not given.
   const Location& whereOf(std::string_view attribute) const;
   const std::vector<Attribute>& attributes() const { return node_->attributes; }
 
-  /// The first child of that name, if any.
+  /// The first child with this name, if any.
   std::optional<Element> child(std::string_view name) const;
-  /// All children, in the order of the file.
+  /// All children, in the order in which they appear in the file.
   std::vector<Element> children() const;
   std::vector<Element> children(std::string_view name) const;
   /// The tag that contains this one; none for the root.
   std::optional<Element> parent() const;
-  /// Whether it is treated as if it were above its siblings (Document::readFirst).
+  /// Whether the tag is treated as if it were above its siblings (Document::readFirst).
   bool isReadFirst() const { return node_->isReadFirst; }
 
-  /// Whether both are the same tag of the same document.
+  /// Whether two handles refer to the same tag of the same document.
   friend bool operator==(const Element&, const Element&) = default;
 
  private:

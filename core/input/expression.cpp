@@ -36,7 +36,7 @@ struct Compiled {
   mu::Parser parser;
 };
 
-/// The formulas that this thread has compiled, by index of the program, until the thread ends.
+/// The formulas compiled by this thread, by index of the program; they are kept until the thread ends.
 std::unordered_map<std::uint64_t, Compiled>& compiledHere() {
   thread_local std::unordered_map<std::uint64_t, Compiled> programs;
   return programs;
@@ -46,7 +46,7 @@ std::string notAFormula(std::string_view text, const std::string& why) {
   return fmt::format("found '{}', expected a formula in x, y, z and t: {}", text, why);
 }
 
-/// A lone `=`, which would change a variable.
+/// Whether a formula contains a lone `=`, which would assign to a variable.
 bool assigns(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '=') continue;

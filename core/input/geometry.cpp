@@ -19,12 +19,12 @@ namespace tushar::input {
 
 namespace {
 
-/// A kind of shape: how it is read and described.
+/// A kind of shape: its schema and the function that reads it.
 struct Kind {
   std::string name;
   std::function<PiecePtr(const Element&, Diagnostics&)> read;
   std::function<void(std::ostream&, int)> describe;
-  const SchemaBase* schema;  ///< must outlive the kind
+  const SchemaBase* schema;  ///< schema of the shape; must outlive the kind
 };
 
 template <class T>
@@ -38,7 +38,7 @@ Kind simple() {
   return {T::schema().name(), read, describe, &T::schema()};
 }
 
-/// Whether all shapes could be read; a reference to an invalid shape is null, without a message of its own.
+/// Whether all shapes could be read; a reference to an invalid shape is null and has no message of its own.
 bool allRead(const std::vector<PiecePtr>& pieces) {
   return std::find(pieces.begin(), pieces.end(), nullptr) == pieces.end();
 }
@@ -61,7 +61,7 @@ void readOperands(Operands& operands, const Element& parent, Diagnostics& diagno
   for (const Element& shape : shapesIn(parent)) operands.pieces.push_back(readShape(shape, diagnostics));
 }
 
-/// The schema of a tag with exactly two shapes, or with at least one.
+/// The schema of a tag that contains shapes: exactly two, or at least one.
 Schema<Operands> operandsSchema(const std::string& name, const std::string& sentence, bool exactlyTwo) {
   const auto checkCount = [exactlyTwo](const Operands& operands, const Element& element, Diagnostics& diagnostics) {
     const std::size_t count = operands.pieces.size();
@@ -102,12 +102,12 @@ Kind nothing() {
   return {"null", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }, &schema};
 }
 
-/// A shape that a file defines.
+/// A shape that is defined by a file.
 struct FileTag {
   std::string file;
 };
 
-/// A shape from a file; `load(path, tag, diagnostics)` makes it, or reports a problem at the tag.
+/// The kind of a shape from a file; `load(path, tag, diagnostics)` makes the shape, or reports a problem at the tag.
 Kind fromFile(const std::string& name, const std::string& sentence, const std::string& whatFile,
               const std::function<PiecePtr(const std::string&, const Element&, Diagnostics&)>& load) {
   const auto schema = std::make_shared<const Schema<FileTag>>(
@@ -182,7 +182,7 @@ bool isLabelledDefinition(const Element& element) {
   return !isEmpty(element) && labelOf(element) && findKind(element.name());
 }
 
-/// Collects the labelled shapes that end above `until`; returns whether `until` was reached.
+/// Collects the labelled shapes that end before `until` begins; returns whether `until` was reached.
 bool collectAbove(const Element& from, const Element& until, std::vector<Element>& found) {
   if (from == until) return true;
   const std::size_t place = found.size();
@@ -195,8 +195,9 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// The labelled shapes above a shape in the same section of the scene (MaterialProperties, PhysicalBC, …): each section
-/// has its own labels, which hide those of other sections. Parts of the section that are read first count as above.
+/// The labelled shapes above a given shape in the same section of the scene (MaterialProperties, PhysicalBC, …). Each
+/// section has its own labels, which hide those of other sections. Parts of the section that are read first also count
+/// as above.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {
@@ -264,7 +265,7 @@ void noteIfTaken(const Element& shape, const std::string& label, Diagnostics& di
                          others.front().name(), others.front().where().text()));
 }
 
-/// An empty tag that refers to a shape further up.
+/// An empty tag that refers to a shape defined above it.
 struct Reference {
   std::string label;
 };

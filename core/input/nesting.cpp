@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t npos = std::string_view::npos;
 
-/// The position after the `>` that ends the tag at `at`; a `>` within quotes does not end it.
+/// The position after the `>` that ends the tag at `at`; a `>` within quotes does not count.
 std::size_t endOfTag(std::string_view text, std::size_t at) {
   char quote = 0;
   for (; at < text.size(); ++at) {
@@ -23,7 +23,8 @@ std::size_t endOfTag(std::string_view text, std::size_t at) {
   return npos;
 }
 
-/// The position after the text at `at` if this is not the tag of an element, otherwise `at`.
+/// The position after a comment, CDATA section or declaration at `at`; `at` itself if the tag of an element begins
+/// there.
 std::size_t pastOther(std::string_view text, std::size_t at) {
   const std::pair<std::string_view, std::string_view> others[] = {
       {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};

@@ -8,27 +8,27 @@
 
 namespace tushar::input {
 
-/// An XML attribute and its place: that of its tag, or the option that overrides it.
+/// An XML attribute, and the location of its tag or of the option that overrides the attribute.
 struct Attribute {
   std::string name;
   std::string value;
   Location where;
 };
 
-/// A tag or comment in a Document; to be read through Element.
+/// A tag or comment in a Document; it is read through Element.
 struct Node {
   enum class Kind { tag, comment };
 
   Kind kind = Kind::tag;
-  std::string name;  ///< empty for a comment
-  std::string text;  ///< text of the tag or comment, without blanks at its ends
+  std::string name;  ///< name of the tag; empty for a comment
+  std::string text;  ///< text of the tag or comment, without leading and trailing blanks
   Location where;
   std::vector<Attribute> attributes;
   std::vector<std::unique_ptr<Node>> children;
   const Node* parent = nullptr;
-  bool isReadFirst = false;  ///< is treated as if it were above its siblings
+  bool isReadFirst = false;  ///< whether the tag is treated as if it were above its siblings
 
-  /// Appends a child and returns it; the pointer stays valid for the life of this node.
+  /// Appends a child and returns it; the pointer stays valid as long as this node exists.
   Node& append(std::unique_ptr<Node> child) {
     child->parent = this;
     children.push_back(std::move(child));

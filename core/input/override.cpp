@@ -21,7 +21,7 @@ bool isName(std::string_view text) {
          std::all_of(text.begin(), text.end(), continues);
 }
 
-/// The position of the first `wanted` outside square brackets.
+/// The position of the first character `wanted` outside square brackets.
 std::size_t findOutside(std::string_view text, char wanted) {
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -95,7 +95,7 @@ Node& create(Node& parent, const std::string& name, const Location& where) {
   return parent.append(std::move(node));
 }
 
-/// Why `step` does not match exactly one tag among `found`; empty if it does.
+/// The reason why `step` does not match exactly one tag among `found`; empty if it does.
 std::string stepProblem(const Node& parent, const OverrideStep& step, std::size_t found) {
   if (step.index > 0) {
     if (static_cast<std::size_t>(step.index) <= found + 1) return {};
@@ -109,7 +109,7 @@ std::string stepProblem(const Node& parent, const OverrideStep& step, std::size_
                      parent.name, step.name, step.name);
 }
 
-/// The only child that `step` matches, made if it is missing; null after an error.
+/// The only child that `step` matches, created if it is missing; null after an error.
 Node* follow(Node& parent, const OverrideStep& step, const Location& where, Diagnostics& diagnostics) {
   const std::vector<Node*> found = matches(parent, step);
   const std::string problem = stepProblem(parent, step, found.size());

@@ -6,11 +6,11 @@
 
 namespace tushar::input {
 
-/// The result of parsing text: a value, or a sentence that says what is wrong with the text.
+/// The result of parsing a text: a value, or a sentence that says why the text is invalid.
 template <class T>
 struct Parsed {
   std::optional<T> value;
-  std::string problem;  ///< empty if and only if there is a value
+  std::string problem;  ///< the sentence; empty if and only if there is a value
 
   explicit operator bool() const { return value.has_value(); }
   const T& operator*() const { return *value; }

@@ -7,8 +7,8 @@
 
 namespace tushar::input {
 
-/// The paths of all values below a tag, as Document::set takes them, in the order of the file: `Time/maxTime`,
-/// `Grid/BoundaryConditions/Face[2]/@side`. Tags of the same name beside each other have numbers.
+/// The paths of all values below a tag, in the form that Document::set accepts and in the order of the file, such as
+/// `Time/maxTime` and `Grid/BoundaryConditions/Face[2]/@side`. Siblings with the same name are numbered.
 std::vector<std::string> settablePaths(const Element& root);
 
 }  // namespace tushar::input

@@ -14,7 +14,7 @@ namespace tushar::input {
 void refuseSwitch(SchemaBase& schema, const std::string& tag, const std::string& instead);
 /// Accepts a flag of Uintah only if it is `true`; `instead` names the alternative.
 void requireSwitch(SchemaBase& schema, const std::string& tag, const std::string& instead);
-/// Accepts a tag of Uintah only with one of some values; `sentence` gives the reason.
+/// Accepts a tag of Uintah only if it has one of some values; `sentence` gives the reason.
 void refuseOtherValues(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& values,
                        const std::string& sentence);
 /// Refuses a tag of Uintah; `instead` names the alternative.
@@ -25,11 +25,12 @@ void noteTag(SchemaBase& schema, const std::string& tag, const std::string& why)
 /// reason `why`.
 void noteAttribute(const Element& given, const std::string& attribute, const std::string& why,
                    Diagnostics& diagnostics);
-/// Accepts only the `available` options of a choice in Uintah; the tag may be omitted.
+/// Accepts only the `available` options of one of Uintah's choices; the tag may be omitted.
 void refuseTypes(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& available,
                  const std::string& sentence);
 
-/// Refuses each entry of a list whose `member` is not above that of the previous entry. `tags` are the entries' own.
+/// Reports an error for each entry of a list whose `member` is not greater than that of the previous entry. `tags` are
+/// the tags of the entries.
 template <class T, class Member>
 void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::vector<Element>& tags,
                    const std::string& problem, Diagnostics& diagnostics) {
@@ -37,10 +38,11 @@ void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::
     if (entries[k].*member <= entries[k - 1].*member) diagnostics.error(tags[k], problem);
 }
 
-/// Options of Uintah that are not available, and the closest alternative to each.
+/// Options of Uintah that are not available, each with its closest alternative.
 using Lacking = std::vector<std::pair<std::string, std::string>>;
 
-/// Declares a tag with one of several words; for words that are `lacking`, the message names the closest alternative.
+/// Declares a tag whose text is one of several words; for words that are `lacking`, the message names the closest
+/// alternative.
 template <class S, class E>
 void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E S::*member,
                              const std::type_identity_t<input::Choices<E>>& choices, const Lacking& lacking,

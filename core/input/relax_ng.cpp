@@ -35,7 +35,7 @@ void writePattern(xml_node parent, const std::string& pattern) {
   named(data, "param", "pattern").text() = pattern.c_str();
 }
 
-/// Writes a choice of words; compared as numbers if `asNumbers`.
+/// Writes a choice of words, which are compared as numbers if `asNumbers` is true.
 void writeWords(xml_node parent, const std::vector<std::string>& words, bool asNumbers) {
   xml_node choice = words.size() == 1 ? parent : parent.append_child("choice");
   for (const std::string& word : words) {
@@ -54,7 +54,7 @@ void writeValue(xml_node parent, const TagForm& form) {
     refer(parent, "value-" + valueTypeOf(form.type).name);
 }
 
-/// Writes the allowed number of occurrences in `parent`; returns the node for the content.
+/// Writes the allowed number of occurrences into `parent`; returns the node for the content.
 xml_node often(xml_node parent, int atLeast, bool repeats) {
   if (repeats) return parent.append_child(atLeast > 0 ? "oneOrMore" : "zeroOrMore");
   return atLeast > 0 ? parent : parent.append_child("optional");
@@ -87,7 +87,7 @@ class Grammar {
     std::function<void(xml_node)> fill;
   };
 
-  /// The name of the definition of `key`; on first use, `fill` writes the content of its element.
+  /// Returns the name of the definition of `key`; on first use, calls `fill` to write the content of its element.
   std::string define(const std::string& key, const std::string& tag, std::function<void(xml_node)> fill) {
     auto [found, isNew] = names_.try_emplace(key);
     if (isNew) {
@@ -138,7 +138,7 @@ class Grammar {
     referToTag(isOne ? parent : parent.append_child("choice"), form, tag, documentation);
   }
 
-  /// Writes tags of which a certain number must be given, in any combination.
+  /// Writes tags of which at least `atLeast` must be given, in any combination.
   void writeAnyOf(xml_node parent, const SchemaEntry& entry, int atLeast) {
     const auto choose = [&](xml_node place) {
       xml_node choice = place.append_child("choice");

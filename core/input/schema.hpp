@@ -17,78 +17,78 @@
 
 namespace tushar::input {
 
-/// Converts a pointer to a member of a base of S to one of S.
+/// Converts a pointer to a member of a base class of S to a pointer to a member of S.
 template <class S, class T, class Base>
 T S::*memberOf(T Base::*member) {
   return member;
 }
 
-/// A description of how to read one tag into a structure S: each tag and attribute that it may contain is declared
-/// once, with its type, default, unit, limits and description. Reading, the messages and the manual all come from these
+/// Describes how to read one tag into a structure S: each tag and attribute that it may contain is declared once, with
+/// its type, default, unit, limits and description. Reading, error messages and the manual are all based on these
 /// declarations.
 ///
-/// S must be default-constructible. Units are as in "m/s"; "1" means none. Schemas that are passed to others are kept
-/// by reference and must outlive them (make them function-local statics).
+/// S must be default-constructible. Units are written as in "m/s"; "1" means dimensionless. Schemas passed to other
+/// schemas are stored by reference and must outlive them (make them function-local statics).
 template <class S>
 class Schema : public SchemaBase {
  public:
-  /// `name` is that of the tag; `sentence` describes its purpose.
+  /// `name` is the name of the tag; `sentence` describes its purpose.
   Schema(std::string_view name, std::string_view sentence) : SchemaBase(name, sentence) {}
 
-  /// Reads the tag; every problem goes to `diagnostics`, and the member concerned keeps its default.
+  /// Reads the tag. Reports every problem to `diagnostics`; the member concerned then keeps its default.
   S read(const Element& element, Diagnostics& diagnostics) const {
     S object{};
     readInto(&object, element, diagnostics);
     return object;
   }
 
-  /// The settings of an empty tag.
+  /// The settings that an empty tag would give.
   S defaults() const {
     S object{};
     setDefaults(&object);
     return object;
   }
 
-  /// A tag with a value, which is `byDefault` if the tag is omitted.
+  /// Declares a tag with a value; `byDefault` is the value if the tag is omitted.
   template <class T, class... C>
   Schema& value(std::string_view name, T S::*member, const std::type_identity_t<T>& byDefault, std::string_view unit,
                 std::string_view sentence, const C&... constraints) {
     return put(withDefault(valueEntry<T>(member, name, unit, sentence, constraints...), member, byDefault));
   }
 
-  /// A tag with a value that must be given.
+  /// Declares a tag with a value that must be given.
   template <class T, class... C>
   Schema& required(std::string_view name, T S::*member, std::string_view unit, std::string_view sentence,
                    const C&... constraints) {
     return put(mandatory(valueEntry<T>(member, name, unit, sentence, constraints...)));
   }
 
-  /// A tag with an optional value.
+  /// Declares a tag with an optional value.
   template <class T, class... C>
   Schema& optional(std::string_view name, std::optional<T> S::*member, std::string_view unit, std::string_view sentence,
                    const C&... constraints) {
     return put(valueEntry<T>(member, name, unit, sentence, constraints...));
   }
 
-  /// A tag with a value that may be given any number of times, at least `atLeast` times.
+  /// Declares a tag with a value; the tag may be repeated, and must be given at least `atLeast` times.
   template <class T, class... C>
   Schema& values(std::string_view name, std::vector<T> S::*member, std::string_view unit, std::string_view sentence,
                  int atLeast, const C&... constraints) {
     return put(repeated(valueEntry<T>(member, name, unit, sentence, constraints...), atLeast));
   }
 
-  /// A flag: an empty tag means true; otherwise its text is true or false.
+  /// Declares a flag: an empty tag means true; otherwise its text is true or false.
   Schema& flag(std::string_view name, bool S::*member, std::string_view sentence) {
     return put(flagEntry(withDefault(valueEntry<bool>(member, name, "1", sentence), member, false)));
   }
 
-  /// The tag's own text, which must be given.
+  /// Declares the tag's own text, which must be given.
   template <class T, class... C>
   Schema& text(T S::*member, std::string_view unit, std::string_view sentence, const C&... constraints) {
     return put(ownText(mandatory(valueEntry<T>(member, "", unit, sentence, constraints...))));
   }
 
-  /// A tag with one of several words.
+  /// Declares a tag whose text is one of several words.
   template <class E>
   Schema& choice(std::string_view name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
                  const std::type_identity_t<E>& byDefault, std::string_view sentence) {
@@ -105,7 +105,7 @@ class Schema : public SchemaBase {
     return put(choiceEntry<E>(member, name, choices, sentence));
   }
 
-  /// The same for attributes.
+  /// Declares an attribute with a value; `byDefault` is the value if the attribute is omitted.
   template <class T, class... C>
   Schema& attributeValue(std::string_view name, T S::*member, const std::type_identity_t<T>& byDefault,
                          std::string_view unit, std::string_view sentence, const C&... constraints) {
@@ -139,46 +139,47 @@ class Schema : public SchemaBase {
     return put(attribute(choiceEntry<E>(member, name, choices, sentence)));
   }
 
-  /// An optional tag that another schema reads; the member is empty without it.
+  /// Declares an optional tag that is read by another schema; if it is omitted, the member is empty.
   template <class T>
   Schema& section(std::string_view name, std::optional<T> S::*member, const Schema<T>& schema,
                   std::string_view sentence = "") {
     return put(nestedEntry(name, schema, sentence, member));
   }
-  /// An optional tag that another schema reads; without it, the member has the defaults of that schema.
+  /// Declares an optional tag that is read by another schema; if it is omitted, the member has the defaults of that
+  /// schema.
   template <class T>
   Schema& section(std::string_view name, T S::*member, const Schema<T>& schema, std::string_view sentence = "") {
     SchemaEntry entry = nestedEntry(name, schema, sentence, member);
     entry.setDefault = [member, &schema](void* object) { static_cast<S*>(object)->*member = schema.defaults(); };
     return put(std::move(entry));
   }
-  /// A tag read by another schema, which must be given.
+  /// Declares a tag that is read by another schema and must be given.
   template <class T>
   Schema& requiredSection(std::string_view name, T S::*member, const Schema<T>& schema,
                           std::string_view sentence = "") {
     return put(mandatory(nestedEntry(name, schema, sentence, member)));
   }
-  /// A tag read by another schema, any number of times, at least `atLeast` times.
+  /// Declares a tag that is read by another schema; it may be repeated, and must be given at least `atLeast` times.
   template <class T>
   Schema& list(std::string_view name, std::vector<T> S::*member, const Schema<T>& schema,
                std::string_view sentence = "", int atLeast = 0) {
     return put(repeated(nestedEntry(name, schema, sentence, member), atLeast));
   }
 
-  /// A tag (with its content) that is accepted but has no effect; `sentence` says why.
+  /// Declares a tag that is accepted with its content but has no effect; `sentence` gives the reason.
   Schema& ignored(std::string_view name, std::string_view sentence) { return put(ignoredEntry(name, sentence)); }
   Schema& ignoredAttribute(std::string_view name, std::string_view sentence) {
     return put(attribute(ignoredEntry(name, sentence)));
   }
 
-  /// An attribute with text that is not read by this schema.
+  /// Declares an attribute whose text is not read by this schema.
   Schema& foreignAttribute(std::string_view name, std::string_view sentence) {
     return put(attribute(textEntry(name, sentence)));
   }
 
-  /// Reads what declarations cannot express. `reader` is called once with the element of *this* schema, whether or not
-  /// any of the tags that it `takes` over (`name` itself if none are listed) is given. `Read` is a function of an S&,
-  /// an Element and Diagnostics.
+  /// Declares a function that reads what declarations cannot express. `reader` takes an S&, an Element and Diagnostics.
+  /// It is called once, with the element of *this* schema, even if none of its tags is given. These tags are listed in
+  /// `takes`; if that is empty, the only one is `name`.
   template <class Read>
   Schema& custom(std::string_view name, Read reader, std::vector<std::string> takes, std::string_view sentence,
                  SharedFunction<void(std::ostream&, int)> describeBelow = {}) {
@@ -191,14 +192,14 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// The allowed content of the tags of the last declaration, a custom one, for the schemas of editors; at least
-  /// `atLeast` of these tags must be given in total.
+  /// Declares, for the schemas of editors, the allowed content of the tags of the last declaration, which must be a
+  /// custom one; at least `atLeast` of these tags must be given in total.
   Schema& forms(std::vector<TagForm> forms, int atLeast = 0) {
     setFormsOfLast(std::move(forms), atLeast);
     return *this;
   }
 
-  /// Stores the location of the tag or, if the name of an attribute is given, of that attribute.
+  /// Stores the location of the tag or, if the name of an attribute is given, of this attribute.
   Schema& location(Location S::*member, std::string attribute = "") {
     addLocate([member, attribute = std::move(attribute)](void* object, const Element& element) {
       static_cast<S*>(object)->*member = element.whereOf(attribute);
@@ -206,8 +207,8 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Checks values against each other; called only if the element had no problem so far. `Check` is a function of a
-  /// const S&, an Element and Diagnostics.
+  /// Checks values against each other; called only if the element has no problem so far. `checker` takes a const S&, an
+  /// Element and Diagnostics.
   template <class Check>
   Schema& check(Check checker) {
     addCheck([checker = std::move(checker)](const void* object, const Element& element, Diagnostics& diagnostics) {
@@ -216,24 +217,25 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Tells editors that one of the last `count` attributes must be given.
+  /// Declares, for the schemas of editors, that one of the last `count` attributes must be given.
   Schema& oneOfLast(int count) {
     markAlternatives(count);
     return *this;
   }
 
-  /// Adds a note to the message about a word that is not in the last choice: where the word is available.
+  /// Adds `sentence` to the error message for `word`, which is not an option of the last choice; it says where the word
+  /// is available.
   Schema& elsewhere(std::string_view word, std::string_view sentence) {
     explainWordOfLast(word, sentence);
     return *this;
   }
 
-  /// Marks all declarations that follow as tags that Uintah does not have.
+  /// Marks all later declarations as tags that Uintah does not have.
   Schema& allOurs() {
     markAllOurs();
     return *this;
   }
-  /// Marks the last declaration as one that Uintah does not have.
+  /// Marks the last declaration as a tag or attribute that Uintah does not have.
   Schema& ours() {
     markLastOurs();
     return *this;
@@ -245,8 +247,8 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// The address of `member` in an S whose type is erased. From here on the entries do not depend on S, so that the
-  /// compiler makes them once for each type of value.
+  /// The address of `member` in an S whose type is erased. The entries do not depend on S, so that the compiler
+  /// generates them only once for each type of value.
   template <class M>
   static Reach<M> reach(M S::*member) {
     return Reach<M>(member);

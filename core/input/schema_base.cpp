@@ -38,7 +38,7 @@ void refuseTags(const Element& element, Diagnostics& diagnostics) {
         child, fmt::format("found tag <{}> in <{}>, where only a value is allowed", child.name(), element.name()));
 }
 
-/// Reads a tag that contains one value, and neither attributes nor tags.
+/// Reads a tag that contains one value and neither attributes nor other tags.
 void readValue(const SchemaEntry& entry, void* object, const Element& element, Diagnostics& diagnostics) {
   refuseAttributes(element, {}, diagnostics);
   refuseTags(element, diagnostics);
@@ -97,7 +97,7 @@ void readAttribute(const SchemaEntry& entry, void* object, const Element& elemen
   }
 }
 
-/// Reports content that a function for custom tags would ignore: attributes, tags in values, repeated tags.
+/// Reports content that the function for a custom tag would ignore: attributes, tags in values, repeated tags.
 void checkForm(const TagForm& form, const Element& element, Diagnostics& diagnostics) {
   std::vector<std::string> demanded;
   for (const Demand& demand : form.demands) demanded.push_back(demand.name);

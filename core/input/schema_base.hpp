@@ -31,15 +31,15 @@ struct SchemaEntry {
   std::string sentence;
   std::string type;
   std::string unit;
-  std::string fallback;  ///< the default as text; empty if there is none
+  std::string fallback;  ///< default value as text; empty if there is none
   std::string limits;
   std::vector<std::string> choices;
-  std::vector<std::string> takes;  ///< the tags that it reads; empty for attributes and text
+  std::vector<std::string> takes;  ///< names of the tags that the declaration reads; empty for attributes and text
   bool ours = false;
   bool repeatable = false;
-  bool isAlternative = false;  ///< whether it is one of several attributes, one of which must be given
+  bool isAlternative = false;  ///< whether it is one of several attributes of which one must be given
   int atLeast = 0;             ///< smallest number of occurrences
-  std::vector<TagForm> forms;  ///< the allowed content of tags that a function of the parent reads; empty: anything
+  std::vector<TagForm> forms;  ///< allowed content of tags that a function of the parent reads; empty: any content
   const SchemaBase* nested = nullptr;  ///< the schema that reads a nested tag
 
   SharedFunction<void(void* object)> setDefault;
@@ -56,7 +56,7 @@ SchemaEntry namedEntry(std::string_view name, std::string_view sentence);
 /// The facts about a value that the manual adds to its description: `number in Pa, greater than 0, default 1`.
 std::string factsOf(const SchemaEntry& entry);
 
-/// The message that `text` is not one of `words`; empty if it is.
+/// Returns the message that `text` is not one of `words`; empty if it is.
 std::string choiceProblem(const std::string& text, const std::vector<std::string>& words);
 
 /// Reports the attributes of a tag that are not among `allowed`.
@@ -69,14 +69,14 @@ class SchemaBase {
  public:
   const std::string& name() const { return name_; }
   const std::string& sentence() const { return sentence_; }
-  /// All declarations, in their order.
+  /// All declarations, in the order in which they were made.
   const std::vector<SchemaEntry>& entries() const { return entries_; }
-  /// The tags that may be given, in the order of their declaration.
+  /// The names of the tags that may be given, in the order of their declarations.
   std::vector<std::string> tagNames() const;
-  /// The tags that may be given, without those that are declared only to be refused.
+  /// Like tagNames(), without the tags that are declared only to be refused.
   std::vector<std::string> acceptedTagNames() const;
   std::vector<std::string> attributeNames() const;
-  /// Writes the manual of the tag and of all that it may contain, indented by `indent` blanks.
+  /// Writes the manual of the tag and of everything that it may contain, indented by `indent` blanks.
   void describe(std::ostream& out, int indent = 0) const;
   /// Like describe(), without the line of the tag itself.
   void describeContents(std::ostream& out, int indent = 0) const;
@@ -108,7 +108,7 @@ class SchemaBase {
   static SchemaEntry flagEntry(SchemaEntry&& entry);
   static SchemaEntry ignoredEntry(std::string_view name, std::string_view sentence);
   static SchemaEntry textEntry(std::string_view name, std::string_view sentence);
-  /// A tag that `schema` reads; with an empty sentence, that of the schema is used.
+  /// The entry of a tag that `schema` reads; if `sentence` is empty, the description of the schema is used.
   static SchemaEntry sectionEntry(std::string_view name, const SchemaBase& schema, std::string_view sentence);
   void markLastOurs();
   void markAllOurs() { all_ours_ = true; }
@@ -126,7 +126,7 @@ class SchemaBase {
   std::string name_;
   std::string sentence_;
   std::vector<SchemaEntry> entries_;
-  bool all_ours_ = false;  ///< from here on
+  bool all_ours_ = false;  ///< whether all declarations from here on are tags that Uintah does not have
   std::vector<Locate> locates_;
   std::vector<Check> checks_;
 };

@@ -23,8 +23,8 @@ namespace tushar::input {
 template <class E>
 using Choices = std::vector<std::pair<std::string, E>>;
 
-/// The address of a member in an object whose type is erased: an M, which is a T, an optional T or a list of T. Does
-/// what std::function would, except for each structure the compiler makes one function in place of five.
+/// The address of a member in an object whose type is erased; M is T, an optional T or a list of T. Works like
+/// std::function, but the compiler generates one function per structure instead of five.
 template <class M>
 class Reach {
  public:
@@ -43,7 +43,7 @@ class Reach {
     return &(static_cast<S*>(object)->*member);
   }
 
-  std::byte member_[sizeof(std::ptrdiff_t)];  ///< an M S::*
+  std::byte member_[sizeof(std::ptrdiff_t)];  ///< the member pointer, an M S::*
   M* (*address_)(const std::byte*, void*);
 };
 
@@ -77,7 +77,7 @@ Limit<T> limitOf(const C& constraint) {
           }};
 }
 
-/// Reads a T into a member.
+/// The entry that reads a T into a member.
 template <class T, class M>
 SchemaEntry valueEntryOf(Reach<M> member, std::string_view name, std::string_view unit, std::string_view sentence,
                          Limits<T> limits) {
@@ -104,7 +104,7 @@ void setDefaultOf(SchemaEntry& entry, Reach<T> member, const T& byDefault) {
   entry.setDefault = [member = std::move(member), byDefault](void* object) { *member(object) = byDefault; };
 }
 
-/// Reads one of several words into a member.
+/// The entry that reads one of several words into a member.
 template <class E, class M>
 SchemaEntry choiceEntryOf(Reach<M> member, std::string_view name, const Choices<E>& choices,
                           std::string_view sentence) {

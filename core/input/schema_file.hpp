@@ -19,7 +19,7 @@ inline void writeFile(const pugi::xml_document& file, std::ostream& out) {
   file.save(out, " ", pugi::format_default, pugi::encoding_utf8);
 }
 
-/// Adds an element with an attribute `name`.
+/// Adds an element with the attribute `name`.
 inline pugi::xml_node named(pugi::xml_node parent, const char* kind, const std::string& name) {
   pugi::xml_node child = parent.append_child(kind);
   child.append_attribute("name") = name.c_str();

@@ -7,17 +7,17 @@
 
 namespace tushar::input {
 
-/// A type of values in schemas for editors.
+/// A type of values in the schemas for editors.
 struct ValueType {
-  std::string type;     ///< its name in the manual
-  std::string name;     ///< in schemas
-  std::string pattern;  ///< a regular expression of XML Schema for a text with collapsed blanks
+  std::string type;     ///< name of the type in the manual
+  std::string name;     ///< name of the type in the schemas
+  std::string pattern;  ///< regular expression of XML Schema that matches such values after blanks are collapsed
 };
 
-/// All types of values, `text` the first.
+/// All types of values; `text` is the first.
 const std::vector<ValueType>& valueTypes();
 
-/// The type with that name in the manual; text if there is none.
+/// The type with this name in the manual; `text` if there is none.
 const ValueType& valueTypeOf(const std::string& type);
 
 /// The allowed content of the tags of a declaration.

@@ -25,7 +25,7 @@ std::string_view withoutPlus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
-/// The text without a decimal point that is followed only by zeros: so that `2.0` is also a whole number.
+/// The text without a decimal point that is followed only by zeros, so that `2.0` is read as an integer, too.
 std::string_view withoutPoint(std::string_view text) {
   const auto point = text.find('.');
   const bool isWhole =
@@ -48,7 +48,7 @@ Parsed<T> parseInteger(std::string_view given) {
                               : fmt::format("found '{}', which is above the largest integer, {}", text, Limits::max()));
 }
 
-/// The parts of `[a,b,c]`; an error if the brackets are missing. `what` says what was expected.
+/// The parts of `[a,b,c]`; an error if the brackets are missing. `what` describes the expected value.
 Parsed<std::vector<std::string>> parts(const std::string& text, std::string_view what) {
   if (text.size() < 2 || text.front() != '[' || text.back() != ']') {
     return Parsed<std::vector<std::string>>::wrong(expected(text, what));
@@ -58,7 +58,7 @@ Parsed<std::vector<std::string>> parts(const std::string& text, std::string_view
   return Parsed<std::vector<std::string>>::ok(splitAtCommas(inside));
 }
 
-/// As in Uintah, a number without brackets is a list of one.
+/// As in Uintah, a number without brackets is a list with one entry.
 template <class T>
 Parsed<std::vector<T>> parseList(std::string_view given, std::string_view what) {
   const std::string text = trimmed(given);
@@ -152,7 +152,7 @@ Parsed<std::vector<std::string>> parse<std::vector<std::string>>(std::string_vie
   return parseList<std::string>(text, "words, as [a,b,c]");
 }
 
-/// One triple without the outer brackets is a list of one.
+/// A triple without outer brackets is a list with one entry.
 template <>
 Parsed<std::vector<Index3>> parse<std::vector<Index3>>(std::string_view given) {
   const std::string text = trimmed(given);

@@ -13,7 +13,7 @@ namespace tushar::input {
 
 /// Reads text as a T: bool, int, std::int64_t, double, std::string, Vec3, Index3, std::vector of double, int,
 /// std::string or Index3, Expression or VectorExpression. Blanks are free at the ends and around commas and brackets.
-/// Numbers are read alike in every locale; infinite and undefined ones are refused.
+/// Numbers are read in the same way in every locale; infinite and undefined numbers are refused.
 template <class T>
 Parsed<T> parse(std::string_view text);
 
@@ -44,7 +44,7 @@ Parsed<Expression> parse<Expression>(std::string_view text);
 template <>
 Parsed<VectorExpression> parse<VectorExpression>(std::string_view text);
 
-/// The manual's name for values of type T.
+/// The name of type T in the manual.
 template <class T>
 inline constexpr std::string_view typeName = "value";
 template <>

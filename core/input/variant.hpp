@@ -15,7 +15,7 @@ class TypedTag;
 template <class... Ts>
 class TypedTag<std::variant<Ts...>> {
  public:
-  /// Reads the tag `element`; if the type is unknown, the result is the first of the structs with its defaults.
+  /// Reads the tag `element`; if its type is unknown, the result is the first of the structs with its defaults.
   static std::variant<Ts...> read(const input::Element& element, input::Diagnostics& diagnostics) {
     std::variant<Ts...> result;
     const std::string type = element.attribute("type").value_or("");
@@ -44,7 +44,8 @@ class TypedTag<std::variant<Ts...>> {
   }
 };
 
-/// Adds such a tag to a schema; its member keeps the default if the tag is omitted.
+/// Adds a tag whose attribute `type` selects a struct (see TypedTag) to a schema; if the tag is omitted, the member
+/// keeps its default.
 template <class S, class Variant>
 void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::*member, const std::string& sentence,
               bool isRequired) {

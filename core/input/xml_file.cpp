@@ -39,15 +39,15 @@ std::string latin1ToUtf8(std::string_view text) {
   return out;
 }
 
-/// Why the file at `path` cannot be opened at all; empty if it can.
+/// The reason why the file at `path` cannot be opened; empty if it can.
 std::string accessProblem(const std::string& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return "this is a folder, but must be a file";
+  if (std::filesystem::is_directory(path, ignored)) return "this is a folder, not a file";
   if (!std::filesystem::exists(path, ignored)) return "there is no such file";
   return {};
 }
 
-/// Appends the file to `text`; returns why that failed, or nothing.
+/// Appends the content of the file to `text`; returns an error message, or an empty text.
 std::string readAll(const std::string& path, std::string& text) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);

@@ -15,11 +15,10 @@ namespace tushar::input {
 /// One parsed XML file with the line and column of each node.
 class XmlFile {
  public:
-  /// Reads the file into memory; if that fails, returns none and sets a sentence. `where` is the tag that names the
-  /// file.
+  /// Reads the file into memory; on failure, returns none and reports an error at `where`, the tag that names the file.
   static std::optional<std::string> slurp(const std::string& path, const Location& where, Diagnostics& diagnostics);
 
-  /// Parses `text`, which is called `name` in messages. Text declared to be ISO-8859-1 is converted to UTF-8.
+  /// Parses `text`; messages refer to it by `name`. Text declared to be ISO-8859-1 is converted to UTF-8.
   XmlFile(std::string_view text, std::string name, Diagnostics& diagnostics);
 
   /// The outermost tag; empty if the file is malformed.

@@ -31,7 +31,7 @@ void restrict(xml_node type, const char* base, const char* facet, const std::vec
   for (const std::string& value : values) restriction.append_child(facet).append_attribute("value") = value.c_str();
 }
 
-/// All allowed forms of the tags or attributes with one name, from all declarations.
+/// All allowed forms of the tags or attributes of one name, collected from all declarations.
 class Uses {
  public:
   std::vector<TagForm> values;
@@ -62,7 +62,7 @@ class Uses {
   }
 };
 
-/// Names in the order in which they first occur.
+/// Uses sorted by name, in the order in which the names first occur.
 struct UsesByName {
   std::vector<std::pair<std::string, Uses>> all;
 
@@ -90,7 +90,7 @@ class Writer {
   }
 
  private:
-  /// The name of the type of a tag; empty if the type is defined inside the tag.
+  /// The name of the type of a tag; empty if the type is defined inside the tag's declaration.
   std::string typeOf(const std::string& tag, const Uses& uses) {
     if (uses.mayBeAnything || (!uses.sections.empty() && !uses.values.empty())) return "xs:anyType";
     if (uses.sections.empty()) return "";
@@ -162,7 +162,7 @@ class Writer {
     other.append_attribute("type") = "include";
   }
 
-  /// The type of a value, inside the tag or attribute.
+  /// Writes the type of a value inside the declaration of its tag or attribute.
   static void writeValue(xml_node parent, const Uses& uses) {
     xml_node type = parent.append_child("xs:simpleType");
     if (uses.mayBeAnything) return restrict(type, "xs:string", "", {});

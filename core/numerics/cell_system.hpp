@@ -13,20 +13,20 @@
 
 namespace tushar::numerics {
 
-/// An equation of a linear system: sum_n weight_n x_n = right, with the weights of `left`.
+/// One equation of a linear system: sum_n weight_n x_n = right, where `left` contains the weights.
 template <int D>
 struct CellEquation {
   Balance<D> left;
   double right;
 };
 
-/// A linear system with one unknown and one equation for each cell of the grid, of all levels, solved by all ranks
-/// together. One step makes it, solves it, and takes the solution out. Where there are several levels it need not be
-/// symmetric, and is solved as one that is not.
+/// A linear system with one unknown and one equation for each cell of the grid, on all levels, solved by all ranks
+/// together. It is assembled, solved and read out within one step. On several levels, the matrix need not be symmetric,
+/// and the solver does not assume that it is.
 template <int D>
 class CellSystem {
  public:
-  /// `ranks` are those of togetherOnRanks().
+  /// `ranks` must be togetherOnRanks().
   CellSystem(const tasks::RankPatches& patches, const mpi::Communicator& ranks)
       : patches_(patches), grid_(patches.front()->level().grid()), number_(grid_) {
     unknowns_.ranks = &ranks;
@@ -35,12 +35,12 @@ class CellSystem {
     unknowns_.entries.assign(number_.owned(), Balance<D>::most);
   }
 
-  /// Declares that a solution plus any constant is also a solution: the one with mean 0 is taken.
+  /// Declares that the solution is unique only up to a constant; the solution with mean 0 is then used.
   void freeConstant() { unknowns_.constantIsFree = true; }
 
-  /// Solves for the unknowns, from the values in `guess` of each patch. `equationOf(p, cell)` gives the CellEquation of
-  /// a cell of patch number p of the rank; on several levels it is called twice for cells at the faces of a patch.
-  /// `scale`: see solvers::LinearProblem.
+  /// Solves for the unknowns, starting from the values in `guess` of each patch. `equationOf(p, cell)` returns the
+  /// CellEquation of a cell of patch number p of the rank; on several levels it is called twice for cells at the faces
+  /// of a patch. `scale`: see solvers::LinearProblem.
   template <class EquationOf>
   solvers::Outcome solve(const solvers::LinearSettings& settings,
                          const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf,
@@ -62,8 +62,8 @@ class CellSystem {
     if (isRefined && unknowns_.constantIsFree) takeOutMean();
     return outcome;
   }
-  /// Throws NumericalError if the solve of `what` has failed; `section` has the settings of the solver, `quantity` is
-  /// the label of the solution, and `also` is further advice.
+  /// Throws NumericalError if the solver has not converged. `what` names the system, `section` is the section of the
+  /// scene with the settings of the solver, `quantity` is the label of the solution, and `also` is further advice.
   void requireConvergence(const solvers::Outcome& outcome, const std::string& what, const std::string& section,
                           const std::string& quantity, const std::string& also = "") const {
     if (outcome.converged) return;
@@ -73,7 +73,7 @@ class CellSystem {
         "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <" + section + ">/<Solver>" + also,
         quantity);
   }
-  /// Writes the solution to the fields of the patches.
+  /// Copies the solution to the fields of the patches.
   void take(const std::vector<data::CellView<double>>& values) const {
     forEachCell([&](std::size_t p, const Index<D>& cell) { values[p][cell] = solution_[rowOf(p, cell)]; });
   }
@@ -88,8 +88,8 @@ class CellSystem {
   std::size_t rowOf(std::size_t p, const Index<D>& cell) const {
     return static_cast<std::size_t>(number_(levelOf(p), cell));
   }
-  /// Finds from the equations of cells at the faces of patches which cells of other ranks are used, and the number of
-  /// entries in their rows; the equations of other cells contain only direct neighbours.
+  /// Determines, from the equations of cells at the faces of patches, which cells of other ranks are used, and the
+  /// number of entries in the rows of these equations; the equations of all other cells contain only direct neighbours.
   template <class EquationOf>
   void meetOthers(EquationOf&& equationOf) {
     forEachCell([&](std::size_t p, const Index<D>& cell) {
@@ -114,7 +114,7 @@ class CellSystem {
       matrix.add({columns.data(), 1}, {&column, 1}, {&far.weight, 1});
     }
   }
-  /// Subtracts the mean of the solution, weighted by the volumes of cells.
+  /// Subtracts from the solution its mean, weighted by the volumes of cells.
   void takeOutMean() {
     data::Sum sum, volume;
     forEachCell([&](std::size_t p, const Index<D>& cell) {
@@ -126,7 +126,7 @@ class CellSystem {
     unknowns_.ranks->merge(volume);
     for (double& value : solution_) value -= sum.total() / volume.total();
   }
-  /// The centre of the cell with a given index, m; none if it belongs to another rank.
+  /// The centre of the cell with a given index [m]; none if the cell belongs to another rank.
   std::optional<Vec3> middleOf(int wanted) const {
     std::optional<Vec3> middle;
     forEachCell([&](std::size_t p, const Index<D>& cell) {

@@ -13,19 +13,19 @@ namespace tushar::numerics {
 /// A formula of the scene whose values are checked when they are used.
 struct CheckedFormula {
   const input::Expression& formula;
-  std::string path;  ///< path of its tag, such as `Heat/temperature`
-  std::string unit;  ///< empty for a dimensionless number
+  std::string path;  ///< path of the formula's tag, such as `Heat/temperature`
+  std::string unit;  ///< unit of the values; empty for a dimensionless number
 
-  /// The value at a point [m]. Throws InputError where it is not finite.
+  /// The value at a point [m]. Throws InputError if it is not finite.
   double finiteAt(const Vec3& x) const;
-  /// The same, but throws InputError unless the value is finite and greater than 0.
+  /// Like finiteAt, but throws InputError unless the value is finite and greater than 0.
   double positiveAt(const Vec3& x) const;
-  /// Sets each cell of a patch to the value at its centre. Throws InputError where that is not finite.
+  /// Sets each cell of a patch to the value at its centre. Throws InputError if a value is not finite.
   template <int D>
   void fill(const grid::Patch& patch, data::CellView<double> field) const {
     atMiddles<D>(patch, [&](const Index<D>& cell, const Vec3& x) { field[cell] = finiteAt(x); });
   }
-  /// Throws InputError where the value at the centre of a cell is not finite and greater than 0.
+  /// Throws InputError if the value at the centre of any cell is not finite and greater than 0.
   template <int D>
   void requirePositive(const grid::Patch& patch) const {
     atMiddles<D>(patch, [&](const Index<D>&, const Vec3& x) { positiveAt(x); });

@@ -8,22 +8,23 @@
 
 namespace tushar::numerics {
 
-/// div(k grad phi) by finite volumes over all levels of a grid, for linear systems. Between cells of one width, and at
-/// the sides of the grid, it is Diffusion. A face between levels is cut into those of the finer cells. The flux through
-/// each, outwards, with the resistance R = h/2 / k(-h/4) + h / k(h/2) between the middles of the finer and the coarser
-/// cell, is
+/// div(k grad phi) by finite volumes over all levels of a grid, for linear systems. Between cells of equal width, and
+/// at the sides of the grid, it is identical to Diffusion. A face between levels is divided into the faces of the finer
+/// cells. With the resistance R = h/2 / k(-h/4) + h / k(h/2) between the centres of the finer and the coarser cell, the
+/// outward flux through each of them is
 ///
 ///     F = 4/5 (phi* - phi_1) / R + 1/5 k_12 (phi_1 - phi_2) / h,
 ///
-/// where phi_1 is in the finer cell, phi_2 in the one behind it, phi* in the coarser one, interpolated along the face
-/// to the line through both (FaceInterpolation), and h the finer width. With constant k this is the slope at the face
-/// of the parabola through the three (Martin & Cartwright, Solving Poisson's Equation Using Adaptive Mesh Refinement,
-/// 1996), of second order; it stays so where k varies, and keeps the flux right where k jumps at the face. Both cells
-/// take the same F, so that nothing is lost. The system is not symmetric.
+/// where phi_1 is the value in the finer cell at the face, phi_2 the value in the next finer cell behind it, phi* the
+/// value in the coarser cell, interpolated along the face to the line through both finer cells (FaceInterpolation), and
+/// h the width of the finer cells. For constant k, F / k is the slope at the face of the parabola through the three
+/// values (Martin & Cartwright, Solving Poisson's Equation Using Adaptive Mesh Refinement, 1996), which is of second
+/// order. The flux remains of second order if k varies, and is correct if k jumps at the face. Both cells use the same
+/// F, so the scheme is conservative. The system is not symmetric.
 template <int D>
 class CompositeDiffusion {
  public:
-  /// `k` is a formula in space, and greater than 0; grid and formula must outlive it.
+  /// `k` is a formula in space and must be greater than 0; grid and formula must outlive this object.
   CompositeDiffusion(const grid::Grid& grid, const input::Expression& k, const grid::BoundaryLabel<double>& phi)
       : grid_(grid), leaves_(grid) {
     for (int level = 0; level < grid.levels(); ++level) ofLevels_.emplace_back(grid.level(level), k, phi);
@@ -53,7 +54,8 @@ class CompositeDiffusion {
  private:
   const Diffusion<D>& on(int level) const { return ofLevels_[level]; }
 
-  /// Calls `visit` for the finer cells in a cell that touch its face to the previous cell.
+  /// Calls `visit` for those finer cells inside the cell `next` that touch its face to the cell from which `next` lies
+  /// on side `side` along axis d.
   template <class Visit>
   static void forEachFiner(const Index<D>& next, int d, int side, Visit&& visit) {
     for (int k = 0; k < (1 << D); ++k) {
@@ -63,7 +65,7 @@ class CompositeDiffusion {
     }
   }
 
-  /// Adds `factor` times the flux A F from a cell into a coarser one.
+  /// Adds `factor` times the flux A F through the face between a cell and the coarser cell behind its side `side`.
   void addRim(int level, const Index<D>& fine, int d, int side, double factor, Balance<D>& balance) const {
     const Diffusion<D>& diffusion = on(level);
     const grid::Level& here = grid_.level(level);
@@ -94,7 +96,7 @@ class CompositeDiffusion {
 
   const grid::Grid& grid_;
   LeafCells<D> leaves_;
-  std::deque<Diffusion<D>> ofLevels_;  ///< the coarsest first
+  std::deque<Diffusion<D>> ofLevels_;  ///< stencil of each level, the coarsest first
 };
 
 }  // namespace tushar::numerics

@@ -10,7 +10,7 @@
 
 namespace tushar::numerics {
 
-/// The mean of the coefficients of two cells with which the flux through the face between them is correct even if the
+/// The mean of the coefficients of two cells that gives the correct flux through the face between them even if the
 /// coefficient jumps (Patankar, Numerical Heat Transfer and Fluid Flow, 4.2).
 inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
@@ -18,21 +18,22 @@ inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 template <int D>
 struct Balance {
   static constexpr std::size_t most = 2 * D + 1;
-  /// A cell of any level.
+  /// A cell on any level, with its weight.
   struct Far {
     int level;
     Index<D> cell;
     double weight;
   };
 
-  int level = 0;                       ///< level of the cell
-  std::array<Index<D>, most> cells{};  ///< the cell itself, then some of its neighbours, which may be periodic images
+  int level = 0;  ///< level of the cell
+  /// The cell itself, followed by some of its neighbours, which may be periodic images.
+  std::array<Index<D>, most> cells{};
   std::array<double, most> weights{};
   std::size_t count = 1;
-  std::vector<Far> far;  ///< values behind faces where the level ends; none on a single level
+  std::vector<Far> far;  ///< cells behind faces at which the level ends; none on a single level
   double constant = 0;
 
-  /// Adds to the weight of a cell.
+  /// Adds `weight` to the weight of a cell.
   void add(int ofLevel, const Index<D>& cell, double weight) {
     if (ofLevel == level && cell == cells[0]) {
       weights[0] += weight;
@@ -52,18 +53,18 @@ struct Balance {
   }
 };
 
-/// div(k grad phi) by finite volumes, centred: of second order. At a side of the grid with a Dirichlet condition phi is
-/// given, with a Neumann condition its outward derivative; no flux goes through any other. Parts of a side may have
-/// conditions of their own. Between cells k is the harmonic mean.
+/// div(k grad phi) by finite volumes, centred and of second order. At a side of the grid, phi is given by a Dirichlet
+/// condition, or its outward derivative by a Neumann condition; other sides have no flux. Parts of a side may have
+/// conditions of their own. Between cells, k is the harmonic mean.
 template <int D>
 class Diffusion {
  public:
-  /// `k` is a formula in space, and greater than 0.
+  /// `k` is a formula in space and must be greater than 0.
   Diffusion(const grid::Level& level, const input::Expression& k, const grid::BoundaryLabel<double>& phi)
       : level_(level), k_(k), sides_(level.sides(phi)) {}
 
-  /// div(k grad phi) in a cell, for explicit steps. At a side of the grid k is that of the cell. The view has a ghost
-  /// cell.
+  /// div(k grad phi) in a cell, for explicit steps. At a side of the grid, k is the value in the cell. The view needs
+  /// one layer of ghost cells.
   double operator()(const data::CellView<const double>& phi, const Index<D>& cell) const {
     double sum = 0;
     forEachFace(cell, [&](int d, int side, const Index<D>& next, bool isInside) {
@@ -72,14 +73,14 @@ class Diffusion {
     });
     return sum;
   }
-  /// The flux of phi through a face of a cell, inside the grid, for div(k grad phi), along the axis: -k d phi / dx.
+  /// The flux of phi through an inner face of the grid, for div(k grad phi), along the axis: -k d phi / dx.
   double flux(const data::CellView<const double>& phi, const Index<D>& cell, int d, int side) const {
     const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
     const double outward = atFace(cell, next, true) * (phi[cell] - phi[next]) / level_.spacing(d);
     return side == 0 ? -outward : outward;
   }
-  /// The sum over the faces of a cell of k / h²: in an explicit step of at most 1 divided by this rate, no cell
-  /// overshoots.
+  /// The sum of k / h² over the faces of a cell. In an explicit step of at most 1 divided by this rate, the cell does
+  /// not overshoot.
   double rate(const Index<D>& cell) const {
     double sum = 0;
     forEachFace(cell, [&](int d, int, const Index<D>& next, bool isInside) {
@@ -88,7 +89,7 @@ class Diffusion {
     return sum;
   }
   /// The integral of div(k grad phi) over a cell, for linear systems: the sum over its faces of A k (phi_n - phi) / h.
-  /// At a side of the grid k is that of the side.
+  /// At a side of the grid, k is the value at the side.
   Balance<D> balance(const Index<D>& cell) const {
     const double own = inCell(cell);
     Balance<D> balance;
@@ -106,7 +107,8 @@ class Diffusion {
   template <int>
   friend class CompositeDiffusion;
 
-  /// Calls `visit(axis, side, next cell, whether that is on the grid or an image of its cells)`.
+  /// Calls `visit(axis, side, neighbour, isOnGrid)` for each face; `isOnGrid`: the neighbour is on the grid or its
+  /// images.
   template <class Visit>
   void forEachFace(const Index<D>& cell, Visit&& visit) const {
     for (int d = 0; d < D; ++d)
@@ -123,13 +125,13 @@ class Diffusion {
     const double own = inCell(cell);
     return k_.isConstant() || !isInside ? own : harmonicMean(own, inCell(next));
   }
-  /// phi outside a side of the grid such that the condition is satisfied on the side.
+  /// The value of phi in the cell outside a side of the grid for which phi satisfies the condition on the side.
   double mirrored(double phi, const Index<D>& cell, int d, int side) const {
     const auto& given = sides_(d, side, cell);
     if (!given) return phi;
     return given->isDirichlet() ? 2 * given->value - phi : phi + level_.spacing(d) * given->value;
   }
-  /// Adds k A (phi_n - phi) / h for the next cell along an axis; `own` is k in the cell.
+  /// Adds k A (phi_n - phi) / h for the neighbour along an axis; `own` is the value of k in the cell.
   void addNext(double own, int d, const Index<D>& next, Balance<D>& balance) const {
     const double weight =
         harmonicMean(own, inCell(next)) * level_.cellVolume() / (level_.spacing(d) * level_.spacing(d));
@@ -137,7 +139,7 @@ class Diffusion {
     balance.weights[balance.count++] = weight;
     balance.weights[0] -= weight;
   }
-  /// Adds k A (value - phi) / (h/2) for a given value, k A times a given derivative.
+  /// Adds k A (value - phi) / (h/2) for a given value, or k A times a given derivative.
   void addSide(int d, int side, Balance<D>& balance) const {
     const auto& given = sides_(d, side, balance.cells[0]);
     if (!given) return;

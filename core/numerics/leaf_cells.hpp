@@ -6,15 +6,15 @@
 
 namespace tushar::numerics {
 
-/// Which cells of a grid of several levels exist: those that are neither refined nor part of coarser ones.
+/// Determines which cells of a grid of several levels exist: those that are neither refined nor part of coarser cells.
 template <int D>
 class LeafCells {
  public:
-  /// The grid must outlive it.
+  /// The grid must outlive this object.
   explicit LeafCells(const grid::Grid& grid) : grid_(&grid) {}
 
-  /// The level of the leaves at a cell of any level: that of the cell, a coarser one, or the next finer one. Images
-  /// along periodic axes count; outside the grid: -1.
+  /// The level of the leaves at the place of a cell: the cell's own level, a coarser one, or the next finer one.
+  /// Periodic images count as their originals; for other cells outside the grid, returns -1.
   int levelAt(int level, const Index<D>& cell) const { return grid_->tree().levelAt(blockOf(level, cell)); }
   bool isThere(int level, const Index<D>& cell) const { return levelAt(level, cell) == level; }
   bool areInOneBlock(const Index<D>& a, const Index<D>& b) const { return blockOf(0, a).at == blockOf(0, b).at; }
@@ -32,15 +32,16 @@ class LeafCells {
   const grid::Grid* grid_;
 };
 
-/// Values of a field next to a face behind which there are finer cells. They follow from a polynomial through the cells
-/// of the level, of second degree along each axis of the face and with their mixed term. Cells that are not there are
-/// not used: beside finer ones, and at sides of the grid, it uses those on the other side.
+/// Interpolates a field along a face behind which there are finer cells. It uses a polynomial through cells of the
+/// coarser level, of second degree along each axis of the face, with the mixed term of these axes. Where a neighbour
+/// does not exist on this level, next to refined cells or at sides of the grid, cells on the opposite side are used
+/// instead.
 template <int D>
 class FaceInterpolation {
  public:
   explicit FaceInterpolation(const LeafCells<D>& leaves) : leaves_(leaves) {}
 
-  /// Calls `visit(cell, weight)` for each term of the value at the centre of `cell` plus `shift` widths; the shift
+  /// Calls `visit(cell, weight)` for each term of the value at the centre of `cell` plus `shift` cell widths; the shift
   /// along the axis `normal` is ignored.
   template <class Visit>
   void forEachTerm(int level, const Index<D>& cell, int normal, const std::array<double, D>& shift,
@@ -53,7 +54,7 @@ class FaceInterpolation {
   }
 
  private:
-  /// Visits the neighbours along an axis; returns the addition to the cell's own weight.
+  /// Visits the neighbours along an axis; returns the amount to be added to the cell's own weight.
   template <class Visit>
   double addAlong(int level, const Index<D>& cell, int d, double s, Visit&& visit) const {
     const Index<D> one = Index<D>::unit(d);
@@ -74,8 +75,8 @@ class FaceInterpolation {
     visit(cell + inwards * 2, u * (u - 1) / 2);
     return (u - 1) * (u - 2) / 2 - 1;
   }
-  /// Visits the cells of s_a s_b times the mixed difference, which is the mean over those corners of the cell whose
-  /// other cells exist.
+  /// Visits the cells in the term s_a s_b times the mixed difference. The difference is the mean over those corners of
+  /// the cell at which all other cells exist.
   template <class Visit>
   double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
                   Visit&& visit) const {

@@ -46,9 +46,9 @@ struct Archive::State {
   ArchiveIndex index;
   XdmfIndex xdmf;
   GlobalFiles globals{folder};
-  Pace pace;  ///< pace of the lists
+  Pace pace;  ///< when to write the lists
   int last_step = -1;
-  Pace vtkhdf_pace;  ///< pace of the VTKHDF files, which take longer
+  Pace vtkhdf_pace;  ///< when to write the VTKHDF files, which takes longer
 };
 
 void Archive::State::writeLists() {

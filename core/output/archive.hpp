@@ -9,31 +9,30 @@
 
 namespace tushar::output {
 
-/// The storage of numbers in an archive.
+/// How numbers are stored in an archive.
 struct ArchiveOptions {
-  bool doubleAsFloat = false;  ///< keep 4 of the 8 bytes of each real number
+  bool doubleAsFloat = false;  ///< store each real number in 4 instead of 8 bytes
   int compression = 0;         ///< gzip level, 0 (none) to 9
-  std::string version{};       ///< version of the program that writes
+  std::string version{};       ///< version of the program that writes the archive
 };
 
-/// A global quantity at one time.
+/// The values of a global quantity at one time.
 struct GlobalSample {
   std::string name, unit, description;
-  double time = 0;  ///< s
+  double time = 0;  ///< time [s]
   std::vector<double> values;
 };
 
-/// The contents of an archive when a checkpoint was written.
+/// The extent of an archive at the time when a checkpoint was written.
 struct ArchivePoint {
   int step = 0;
-  double time = 0;    ///< s
+  double time = 0;    ///< time [s]
   std::string index;  ///< content of index.xml
 };
 
-/// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file with which ParaView opens
-/// them, and a text file per global quantity. One process writes it, with other ranks that help with the
-/// outputs. Any function may throw FileError, which names the file
-/// and the system's reason.
+/// The `.uda` folder of a run: the scene, an index, one HDF5 file per output, an XDMF file with which ParaView opens
+/// them, and a text file per global quantity. One process writes it; other ranks help with the outputs. Any function
+/// may throw FileError, which names the file and the system's reason.
 ///
 ///     sod.uda -> sod.uda.001      link to the newest run
 ///     sod.uda.001/input.xml       the scene
@@ -43,31 +42,32 @@ struct ArchivePoint {
 ///                 KineticEnergy.dat
 ///                 t00042.h5       /grid, /particles/<material>/<label>, /cells/…, /nodes/…, /reference/<column>
 ///
-/// Files other than `.dat` are put in place whole by a rename, so that a killed run leaves none of them torn; lines of
-/// `.dat` files are with the system at once. index.xml and the XDMF file list all outputs, and may be behind by a
-/// second or a twentieth of the run's time, so that an output takes as long however many there are.
+/// Files other than `.dat` are written under another name and then renamed, so that a killed run leaves no incomplete
+/// files; lines of `.dat` files are passed to the system immediately. index.xml and the XDMF file list all outputs.
+/// They may be out of date by a second or a twentieth of the run time, so that the cost of an output does not grow with
+/// the number of outputs.
 class Archive {
  public:
   /// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, and points the link
-  /// `filebase` to it. FileError if `filebase` exists and is not a link, or if nothing can be written there.
+  /// `filebase` to it. Throws FileError if `filebase` exists and is not a link, or if nothing can be written there.
   Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
   /// Continues in the folder of another run from some point; later outputs and lines of `.dat` files are removed.
-  /// `name` is that of the filebase. Where index.xml is damaged, the point's is taken; what the XDMF file lacks is read
-  /// from the outputs.
+  /// `name` is the name of the filebase. If index.xml is damaged, it is replaced by the index of the point; entries
+  /// missing in the XDMF file are read from the outputs.
   Archive(const std::filesystem::path& folder, const std::string& name, const ArchivePoint& from,
           const std::string& inputXml, const ArchiveOptions& options);
-  /// Flushes; errors are ignored, so call flush() first.
+  /// Flushes; errors are ignored, so call flush() first to detect them.
   ~Archive();
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
 
-  /// Writes an output. A step that is written again replaces what was there.
+  /// Writes an output. If the step has been written before, the old output is replaced.
   void write(const Snapshot& snapshot);
-  /// Lists an output that ranks have already written into the folder together.
+  /// Adds to the index an output that the ranks have already written into the folder together.
   void list(const Snapshot& snapshot);
   /// Adds a line to `<name>.dat`.
   void appendGlobal(const GlobalSample& sample);
-  /// Writes index.xml and the XDMF file if they have been out of date long enough. To be called after each step.
+  /// Writes index.xml and the XDMF file if they have been out of date for long enough. Call it after each step.
   void keepUp();
   /// Writes index.xml and the XDMF file if they are out of date.
   void flush();
@@ -79,7 +79,7 @@ class Archive {
 
   /// The folder of this run, such as `sod.uda.001`.
   const std::filesystem::path& folder() const;
-  /// The step of the last write(), -1 before the first.
+  /// The step of the last write(); -1 before the first one.
   int lastStep() const;
 
  private:

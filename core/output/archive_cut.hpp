@@ -7,15 +7,15 @@
 
 namespace tushar::output {
 
-/// The lines of a `.dat` file that belong to times up to `time` [s]; an unfinished last line is left out.
+/// The lines of a `.dat` file with times up to `time` [s]; an unfinished last line is left out.
 std::string linesUpTo(const std::string& lines, double time);
 
-/// Removes the outputs of an archive's folder that its index does not list, and those that a killed run has left
-/// unfinished.
+/// Removes the outputs in an archive's folder that its index does not list, and unfinished outputs of a killed run.
 void removeUnlisted(const std::filesystem::path& folder, const ArchiveIndex& index);
 
-/// The longer of two indices of outputs up to a step: the one in a file, and its copy in a checkpoint. The file may be
-/// torn, or out of date after a power cut; the checkpoint has no output that was made after it at the same step.
+/// Returns the text of the index that lists more outputs up to a step: the index in `file`, or its copy `kept` in a
+/// checkpoint. After a power failure, the file may be torn or out of date. The copy lacks an output that was written at
+/// the same step as the checkpoint, but after it.
 std::string fullerIndex(const std::filesystem::path& file, const std::string& kept, int step);
 
 }  // namespace tushar::output

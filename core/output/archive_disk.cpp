@@ -16,7 +16,7 @@ namespace tushar::output {
 
 namespace {
 
-/// The content of the access properties, for open().
+/// The contents of the access properties, used by open().
 struct Settings {
   DiskFailure* failure;
 };
@@ -24,7 +24,7 @@ struct Settings {
 /// An open file; the first members are those of HDF5.
 struct DiskFile : H5FD_t {
   int descriptor;
-  haddr_t allocated;  ///< end of the space allocated by HDF5
+  haddr_t allocated;  ///< end of the space that HDF5 has allocated
   haddr_t size;
   DiskFailure* failure;
 
@@ -36,7 +36,8 @@ struct DiskFile : H5FD_t {
 DiskFile& of(H5FD_t* file) { return *static_cast<DiskFile*>(file); }
 const DiskFile& of(const H5FD_t* file) { return *static_cast<const DiskFile*>(file); }
 
-/// Opens a file. HDF5 first tries without H5F_ACC_CREAT whether the file exists, which may fail.
+/// Opens a file. To find out whether the file exists, HDF5 first tries to open it without H5F_ACC_CREAT, which may
+/// fail.
 H5FD_t* open(const char* name, unsigned flags, hid_t access, haddr_t) {
   DiskFailure* failure = static_cast<const Settings*>(H5Pget_driver_info(access))->failure;
   const bool creates = (flags & H5F_ACC_CREAT) != 0;
@@ -79,7 +80,7 @@ herr_t setAllocated(H5FD_t* base, H5FD_mem_t, haddr_t address) {
 
 haddr_t size(const H5FD_t* base, H5FD_mem_t) { return of(base).size; }
 
-/// Reads bytes; those beyond the end of the file are 0.
+/// Reads bytes; bytes beyond the end of the file are 0.
 herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t from, size_t count, void* buffer) {
   auto* to = static_cast<char*>(buffer);
   while (count > 0) {
@@ -95,8 +96,8 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t from, size_t count, void* b
   return 0;
 }
 
-/// Starts to write a large part to the disk while the next is made; failures are detected when the file is
-/// synchronised.
+/// Makes the system start to write a large part to the disk while the next part is prepared. Failures are detected when
+/// the file is synchronised.
 void startOnDisk(const DiskFile& file, haddr_t from, size_t count) {
   constexpr size_t large = size_t{1} << 18;
   if (count >= large)

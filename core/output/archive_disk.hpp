@@ -10,9 +10,9 @@ struct DiskFailure {
 };
 
 /// HDF5 file access properties (to be closed by H5Pclose) for plain files whose writes never report a failure to HDF5:
-/// the first failure is recorded in `failure`, and later writes are dropped. HDF5 cannot unwind from a full disk: its
-/// files then crash the program when they are closed. `failure` must live until the file is closed. Negative if it
-/// cannot be made.
+/// the first failure is recorded in `failure`, and later writes are dropped. This is necessary because HDF5 cannot
+/// recover from a full disk: closing its files then crashes the program. `failure` must exist until the file is closed.
+/// Returns a negative value on failure.
 std::int64_t diskAccess(DiskFailure& failure);
 
 }  // namespace tushar::output

@@ -25,7 +25,8 @@ namespace {
 
 std::error_code lastError() { return {errno ? errno : EIO, std::generic_category()}; }
 
-/// Whether all `size` bytes can be transferred: `call(done)` passes some of those after `done`, as read and write do.
+/// Transfers all `size` bytes; returns whether this succeeded. `call(done)` transfers some of the bytes after the first
+/// `done`, and returns their number, as read and write do.
 template <class Call>
 bool isWhole(std::size_t size, const Call& call) {
   for (std::size_t done = 0; done < size;) {
@@ -38,10 +39,10 @@ bool isWhole(std::size_t size, const Call& call) {
   return true;
 }
 
-/// The largest number of a folder; one with a larger number does not come from a run.
+/// The largest number of a folder that a run can have made.
 constexpr int greatestNumber = 999'999'999;
 
-/// The number 7 of the folder `sod.uda.007`, for an archive `sod.uda`; none for other names.
+/// The number 7 of the folder `sod.uda.007` for an archive `sod.uda`; none for other names.
 std::optional<int> numberOf(const fs::path& entry, const std::string& base) {
   const std::string name = entry.filename().string();
   if (name.size() <= base.size() + 1 || !name.starts_with(base + ".")) return {};

@@ -14,27 +14,27 @@
 
 namespace tushar::output {
 
-/// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, with its parents. Returns its
-/// path. FileError if it cannot be made, or if `filebase` itself exists and is not a link.
+/// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, and its parents. Returns its
+/// path. Throws FileError if it cannot be made, or if `filebase` itself exists and is not a link.
 std::filesystem::path makeNextFolder(const std::filesystem::path& filebase);
 
-/// Makes a folder and its parents, unless they exist. FileError if it cannot.
+/// Makes a folder and its parents, unless they exist. Throws FileError on failure.
 void makeFolder(const std::filesystem::path& folder);
 
 /// Points the relative link `filebase` to `folder`, atomically.
 void pointLink(const std::filesystem::path& filebase, const std::filesystem::path& folder);
 
-/// Replaces the contents of the file by `text` atomically: a reader sees either the old text or the new. FileError if
-/// it cannot.
+/// Replaces the contents of the file by `text` atomically: a reader sees either the old text or the new one. Throws
+/// FileError on failure.
 void replaceFile(const std::filesystem::path& file, const std::string& text);
 
-/// The same with the text that `write` puts into the stream.
+/// Replaces the contents of the file by the text that `write` puts into the stream, atomically.
 void replaceFile(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
-/// Like the first of these; the file is on the disk when it returns.
+/// Like replaceFile with a text, but returns only when the file is on the disk.
 void replaceFileOnDisk(const std::filesystem::path& file, const std::string& text);
 
-/// A file open for appending, without a buffer. Its functions throw FileError.
+/// A file opened for appending, without a buffer. Its functions throw FileError.
 class AppendFile {
  public:
   /// Opens the file, or creates it.
@@ -56,7 +56,7 @@ class AppendFile {
 /// functions throw FileError.
 class Scratch {
  public:
-  /// `file` is its path, which exists only while the file is created.
+  /// `file` is a path that exists only while the unnamed file is being created.
   explicit Scratch(std::filesystem::path file) : path_(std::move(file)) {}
   ~Scratch();
   Scratch(const Scratch&) = delete;
@@ -72,29 +72,29 @@ class Scratch {
   std::uint64_t size_ = 0;
 };
 
-/// Renames a finished temporary file to its final name. FileError if it cannot.
+/// Renames a finished temporary file to its final name. Throws FileError on failure.
 void moveInto(const std::filesystem::path& temporary, const std::filesystem::path& file);
 
-/// Waits until a file, or the names in a folder, are on the disk. FileError if they cannot be.
+/// Waits until a file, or the names in a folder, are on the disk. Throws FileError on failure.
 void syncToDisk(const std::filesystem::path& path);
 
-/// The contents of a file; nothing if it cannot be read.
+/// The contents of a file; none if it cannot be read.
 std::optional<std::string> textOf(const std::filesystem::path& file);
 
-/// The temporary path of a file until it is renamed.
+/// The temporary path of a file, used until it is complete and renamed.
 std::filesystem::path temporaryOf(const std::filesystem::path& file);
 
-/// A name that can be part of a path in the file system, HDF5 or XDMF: '/' and ':' become '_'.
+/// A name made suitable for paths in the file system, HDF5 or XDMF: '/' and ':' become '_'.
 std::string nameInPath(std::string name);
 
-/// The name of a block's group: that of the material, or `material2` if it has no name.
+/// The name of the group of a block: the material's name, or `material2` if it has none.
 std::string groupName(const std::string& material, int materialIndex);
 
-/// `t00042`.
+/// The name of an output step, such as `t00042`.
 std::string stepName(int step);
-/// `t00042.h5`.
+/// The file name of an output, such as `t00042.h5`.
 std::string outputName(int step);
-/// The step of `t00042`, or none if a name is not a stepName.
+/// The step number in a name such as `t00042`; none if the name has another form.
 std::optional<int> stepOf(const std::string& name);
 
 }  // namespace tushar::output

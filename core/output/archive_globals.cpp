@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// `# time [s] TotalMomentum.x [kg m/s]` with a name for each component.
+/// The first line of the file: `# time [s] TotalMomentum.x [kg m/s]`, with a name for each component.
 std::string headerOf(const GlobalSample& sample) {
   const std::size_t count = sample.values.size();
   std::string names = "# time [s]";

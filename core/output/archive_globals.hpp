@@ -10,16 +10,18 @@
 
 namespace tushar::output {
 
-/// The `.dat` files of an archive. append() returns when the system has the line, so that a killed run loses none.
+/// The `.dat` files of an archive. append() returns after the system has received the line, so that a killed run loses
+/// no line.
 class GlobalFiles {
  public:
   explicit GlobalFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The name of a global's file.
+  /// The file name of a global quantity.
   static std::string nameOf(const std::string& global);
-  /// Adds a line to the file of a global; the first sample replaces the file. Returns whether this was the first.
+  /// Adds a line to the file of a global quantity; the first sample of a quantity replaces an old file. Returns whether
+  /// this sample was the first.
   bool append(const GlobalSample& sample);
-  /// Continues the files of these globals, without the lines after `time` [s].
+  /// Continues the files of these global quantities, without the lines after `time` [s].
   void resume(const std::vector<std::string>& globals, double time);
   /// Waits until all lines are on the disk.
   void sync() const;
@@ -28,8 +30,8 @@ class GlobalFiles {
   std::filesystem::path pathOf(const std::string& global) const { return folder_ / nameOf(global); }
 
   std::filesystem::path folder_;
-  std::map<std::string, AppendFile> files_;  ///< by the global's name
-  std::string line_;                         ///< memory for one line, kept for the next
+  std::map<std::string, AppendFile> files_;  ///< the file of each global quantity, by name
+  std::string line_;                         ///< memory for one line, reused for the next
 };
 
 }  // namespace tushar::output

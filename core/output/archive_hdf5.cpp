@@ -30,7 +30,7 @@ hid_t fileTypeLike(const Array::Values& type) {
                     type);
 }
 
-/// Moves to the start of the next piece, along the axis that varies fastest, if there is one, otherwise along the next
+/// Moves to the start of the next piece: along the axis that varies fastest if there is one, otherwise along the next
 /// axis.
 void advance(std::vector<hsize_t>& first, const std::vector<hsize_t>& piece, const std::vector<hsize_t>& shape) {
   for (std::size_t k = shape.size(); k-- > 0;) {
@@ -50,7 +50,7 @@ Handle parentsMade() {
   return {links, H5Pclose};
 }
 
-/// Creation properties of a dataset without its time of creation, so that equal content gives equal files.
+/// Creation properties of a dataset that do not store its time of creation, so that equal content gives equal files.
 Handle withoutTimes() {
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
   H5Pset_obj_track_times(creation, false);
@@ -89,11 +89,12 @@ void choose(hid_t space, const VirtualPart& part) {
   H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, extent.data(), nullptr);
 }
 
-/// Limited, because HDF5 keeps several copies of each part, about 2.6 kB (1.10, by a heap profile), until the file is
-/// closed. Where there are more parts than this, a dataset shows others of this file that show so many each.
+/// The largest number of parts of one dataset. It is limited because HDF5 keeps several copies of each part in memory,
+/// about 2.6 kB (1.10, by a heap profile), until the file is closed. A dataset with more parts shows other datasets of
+/// this file instead, each of which shows up to this many parts.
 constexpr std::size_t mostParts = 256;
 
-/// The end of the parts that go into one dataset; parts that begin at the same entry stay together.
+/// Returns the end of the parts that one dataset contains; parts that begin at the same entry are not separated.
 std::size_t endOfRun(const std::vector<VirtualPart>& parts, std::size_t begin) {
   std::size_t end = std::min(begin + mostParts, parts.size());
   while (end < parts.size() && parts[end].first[0] == parts[end - 1].first[0]) ++end;
@@ -108,7 +109,7 @@ Handle typeIn(hid_t file, const std::string& dataset) {
 
 }  // namespace
 
-/// Returns a result of HDF5, or throws if it signals an error. Throws if it, or the disk behind it, reports failure.
+/// Returns a result of HDF5. Throws FileError if the result, or the disk behind it, reports a failure.
 template <class Result>
 Result Hdf5File::checked(Result result, const std::string& what) const {
   if (result >= 0 && failure_.error == 0) return result;
@@ -224,7 +225,7 @@ void Hdf5File::writeValues(Id data, const std::vector<Number>& values, const std
   checked(H5Dwrite(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what + " in");
 }
 
-/// Writes the values piece by piece; each piece is a box of the shape, contiguous in the file.
+/// Writes the values piece by piece; each piece is a box that is contiguous in the file.
 template <class Number>
 void Hdf5File::writePieces(Id data, const Array& array, const Shape& shape, const std::string& what) {
   if (array.entries() == 0) return;
@@ -259,7 +260,7 @@ void Hdf5File::text(const std::string& name, const std::string& value) {
   checked(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &characters), name + " in");
 }
 
-/// Makes one dataset that shows all parts.
+/// Makes one virtual dataset that shows all parts.
 void Hdf5File::showParts(const std::string& name, const Array::Values& type, const std::vector<std::uint64_t>& shape,
                          std::span<const VirtualPart> parts) {
   const Handle space = spaceOf(shape), links = parentsMade(), creation = withoutTimes();
@@ -282,7 +283,8 @@ void Hdf5File::showParts(const std::string& name, const Array::Values& type, con
   shown_ += parts.size();
 }
 
-/// The contents of the file are discarded: HDF5 keeps the parts of all virtual datasets as long as their file is open.
+/// Reopens the file, discarding its contents: HDF5 keeps the parts of all virtual datasets as long as their file is
+/// open.
 void Hdf5File::reopen() {
   const Handle access(diskAccess(failure_), H5Pclose);
   close();

@@ -81,7 +81,7 @@ struct ChunkPacker::State {
   hid_t file = -1, data = -1;
   int level = 0, made = 0;
   hid_t memory = -1;
-  std::vector<std::byte> whole;  ///< a chunk, padded with zeros at an end of the dataset
+  std::vector<std::byte> whole;  ///< the whole chunk, padded with zeros at the end of the dataset
 
   void closeData() {
     if (data >= 0) H5Dclose(data);

@@ -28,7 +28,7 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// While it exists, HDF5 prints no errors, and no other thread can call HDF5, which supports only one.
+/// As long as it exists, HDF5 prints no errors, and no other thread can call HDF5, which is not thread-safe.
 class Silence {
  public:
   Silence() : alone_(mutex_) {
@@ -57,13 +57,13 @@ inline hid_t fileType(double, bool asFloat) { return asFloat ? H5T_IEEE_F32LE : 
 inline hid_t fileType(std::uint64_t, bool) { return H5T_STD_U64LE; }
 inline hid_t fileType(std::int32_t, bool) { return H5T_STD_I32LE; }
 
-/// Sets the packing of the chunks of a dataset; false if HDF5 refuses it.
+/// Sets the compression of the chunks of a dataset; returns false if HDF5 refuses it.
 inline bool setPacking(hid_t creation, const std::vector<hsize_t>& chunk, int level) {
   return H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) >= 0 && H5Pset_shuffle(creation) >= 0 &&
          H5Pset_deflate(creation, static_cast<unsigned>(level)) >= 0;
 }
 
-/// The type of a text of any length.
+/// The HDF5 type of a text of any length.
 inline Handle stringType() {
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, H5T_VARIABLE);

@@ -17,7 +17,7 @@ herr_t collect(hid_t, const char* name, const H5L_info_t*, void* names) {
   return 0;
 }
 
-/// Empty values of the type in the file.
+/// An empty array with the type of the values in the file.
 Array::Values valuesLike(hid_t type) {
   if (H5Tget_class(type) == H5T_FLOAT) return std::vector<double>{};
   if (H5Tget_size(type) == sizeof(std::uint64_t)) return std::vector<std::uint64_t>{};
@@ -29,7 +29,7 @@ Number typeOfNumber(const std::vector<Number>&) {
   return {};
 }
 
-/// Takes ownership of a text that HDF5 has allocated.
+/// Takes ownership of a text allocated by HDF5.
 std::string taken(char* characters) {
   const std::string text = characters ? characters : "";
   H5free_memory(characters);
@@ -38,14 +38,14 @@ std::string taken(char* characters) {
 
 }  // namespace
 
-/// Returns a result of HDF5, or throws if it signals an error. Throws if it reports failure.
+/// Returns a result of HDF5. Throws FileError if it reports a failure.
 template <class Result>
 Result Hdf5Input::checked(Result result, const std::string& what) const {
   if (result >= 0) return result;
   throw FileError(fmt::format("cannot read {} '{}': {}", what, path_.string(), hdf5Reason()));
 }
 
-/// An open dataset, its type, and its number of values, for any shape.
+/// An open dataset, its type, and its number of values (the product of its extents).
 struct Hdf5Input::Dataset {
   Handle data, space, type;
   std::size_t numbers;
@@ -81,7 +81,7 @@ bool Hdf5Input::isGroup(const std::string& name) const {
   return found.type == H5G_GROUP;
 }
 
-/// Uses a function that is the same in all versions of HDF5 since 1.6.
+/// Uses a function with the same interface in all versions of HDF5 since 1.6.
 std::uint64_t Hdf5Input::placeOf(const std::string& name) const {
   const Silence silence;
   H5G_stat_t found;

@@ -9,8 +9,8 @@
 
 namespace tushar::output {
 
-/// Reads one HDF5 file that Hdf5File wrote. It needs no MPI and never starts it. Each function may throw FileError with
-/// the path and HDF5's innermost reason.
+/// Reads one HDF5 file written by Hdf5File. It needs no MPI and never starts MPI. Each function may throw FileError
+/// with the path and HDF5's innermost reason.
 class Hdf5Input {
  public:
   explicit Hdf5Input(std::filesystem::path path);
@@ -23,23 +23,24 @@ class Hdf5Input {
   bool has(const std::string& name) const;
   /// Whether an existing path is a group.
   bool isGroup(const std::string& name) const;
-  /// The offset in the file at which a group or dataset begins; later ones have larger offsets.
+  /// The offset in the file at which a group or dataset begins; offsets increase in the order of creation.
   std::uint64_t placeOf(const std::string& name) const;
-  /// Names in a group, sorted; none if there is no such group.
+  /// The names in a group, sorted; empty if there is no such group.
   std::vector<std::string> names(const std::string& group) const;
-  /// The values of a dataset of any shape, as they were written.
+  /// The values of a dataset of any shape, in the order of the file.
   Array::Values dataset(const std::string& name) const;
-  /// The place of a dataset in the file.
+  /// The location of a dataset in the file.
   struct Placed {
-    Array::Values type;        ///< no values, but their type
-    std::size_t count = 0;     ///< number of values, for any shape
-    std::int64_t offset = -1;  ///< of the first value; -1 if the layout differs from that in memory
+    Array::Values type;     ///< the type of the values, without values
+    std::size_t count = 0;  ///< number of values: the product of the extents
+    /// Offset of the first value in the file [bytes]; -1 if the layout differs from the layout in memory.
+    std::int64_t offset = -1;
   };
   Placed placed(const std::string& name) const;
-  /// A dataset that Hdf5File::text wrote.
+  /// A text written by Hdf5File::text.
   std::string text(const std::string& name) const;
 
-  /// An attribute of a group; `/` is the root.
+  /// The value of an attribute of a group; `/` is the root group.
   double real(const std::string& object, const char* name) const;
   int integer(const std::string& object, const char* name) const;
   std::uint64_t count(const std::string& object, const char* name) const;

@@ -31,7 +31,8 @@ class OpenFile {
   const int descriptor;
 };
 
-constexpr std::size_t mostAtOnce = 256;  ///< number of parts; the limit of Linux is 1024
+/// Largest number of parts read by one system call; the limit of Linux is 1024.
+constexpr std::size_t mostAtOnce = 256;
 
 }  // namespace
 
@@ -57,8 +58,8 @@ void Hdf5Parts::read(std::vector<Part> parts) const {
   });
 }
 
-/// Reads ascending parts; numbers that a part shares with the part that has extended farthest so far are copied from
-/// the latter.
+/// Reads parts in ascending order. Numbers that a part shares with earlier parts are not read again, but copied from
+/// the earlier part that extends farthest.
 void Hdf5Parts::readOnce(const std::vector<Part>& parts) const {
   struct Copy {
     const std::byte* from;

@@ -12,22 +12,23 @@ namespace tushar::output {
 /// A dataset that is read in parts as they are needed. Its functions may throw FileError.
 class Hdf5Parts {
  public:
-  /// `file` and `checks` must outlive it. With `checks`, all ranks read together.
+  /// `file` and `checks` must outlive this object. If `checks` is given, all ranks read together.
   Hdf5Parts(const Hdf5Input& file, std::string name, CheckedParts* checks = nullptr);
 
-  /// No values, but the type of those in the dataset.
+  /// The type of the values in the dataset, without values.
   const Array::Values& type() const { return type_; }
-  /// Number of values in the dataset, for any shape.
+  /// Number of values in the dataset: the product of its extents.
   std::size_t count() const { return count_; }
 
-  /// Numbers of the dataset, in the order of the file, and their destination in memory.
+  /// A range of numbers of the dataset, in the order of the file, and its destination in memory.
   struct Part {
     std::size_t first, count;
     std::byte* to;
-    std::size_t others = 0;  ///< values at its end that another part or rank also has, and adds to the sum
+    /// Number of values at the end that also belong to another part or rank, which adds them to the checksum.
+    std::size_t others = 0;
   };
-  /// Reads parts in any order; contiguous ones are read together, and numbers that several have are read once.
-  /// DamageError where the numbers that all ranks read are not those that were written.
+  /// Reads parts in any order; contiguous parts are read together, and numbers that belong to several parts are read
+  /// once. Throws DamageError if the numbers that the ranks have read are not those that were written.
   void read(std::vector<Part> parts) const;
 
  private:
@@ -40,8 +41,9 @@ class Hdf5Parts {
   CheckedParts* checks_;
   std::string name_;
   Array::Values type_;
-  std::size_t count_ = 0, bytes_ = 0;  ///< of a number
-  std::int64_t offset_ = -1;           ///< in the file; negative if the layout differs from that in memory
+  std::size_t count_ = 0, bytes_ = 0;  ///< number of values, and size of a value [bytes]
+  /// Offset of the values in the file [bytes]; negative if the layout differs from the layout in memory.
+  std::int64_t offset_ = -1;
 };
 
 }  // namespace tushar::output

@@ -113,7 +113,7 @@ void ArchiveIndex::add(const GlobalSample& sample, const std::string& file) {
   globals_[sample.name] = {sample.unit, sample.description, file, sample.values.size()};
 }
 
-/// Writes the index; outputs, which are many, are written directly as text.
+/// Writes the index; outputs are written directly as text, because there are many.
 void ArchiveIndex::write(std::ostream& out) const {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child(rootName);

@@ -14,24 +14,25 @@ namespace tushar::output {
 class ArchiveIndex {
  public:
   static constexpr const char* rootName = "tushar_archive";
-  static constexpr int format = 2;         ///< newest format, raised if older readers would misread it
+  /// Newest format; the number is raised if older readers would misread the archive.
+  static constexpr int format = 2;
   static constexpr int uniformFormat = 1;  ///< format of archives with grids of one level
 
   explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}
   /// Continues from the text of another index, without its outputs after `step`.
   ArchiveIndex(std::string version, const std::string& text, int step);
 
-  /// Lists an output. Returns whether it has names that were not listed.
+  /// Adds an output to the list. Returns whether it contains names that were not listed before.
   bool add(const Snapshot& snapshot);
   void add(const GlobalSample& sample, const std::string& file);
   std::vector<std::string> globals() const;
-  /// Number of outputs, up to a step, in the text of an index.
+  /// Number of outputs up to a step in the text of an index.
   static std::size_t sizeOf(const std::string& text, int step) { return ArchiveIndex("", text, step).outputs_.size(); }
-  /// Why an archive cannot be read because its index has a newer format; empty if it can.
+  /// The reason why an archive cannot be read (its index has a newer format); empty if it can.
   static std::string refusalOf(const std::string& text);
-  /// The name of a variable, from that of its datasets, in which some characters may be replaced.
+  /// The name of the variable whose datasets have a given name, in which some characters may have been replaced.
   std::string labelOf(const std::string& nameInFile) const;
-  /// The steps of the outputs, ascending.
+  /// The steps of all outputs, ascending.
   std::vector<int> steps() const;
   bool lists(int step) const { return outputs_.contains(step); }
   /// The step of the last output; -1 if there is none.
@@ -59,7 +60,7 @@ class ArchiveIndex {
   int format_ = uniformFormat;  ///< format of this archive
   std::map<std::string, Variable> variables_;
   std::map<std::string, Global> globals_;
-  std::map<int, Output> outputs_;  ///< by step
+  std::map<int, Output> outputs_;  ///< outputs, by step
 };
 
 }  // namespace tushar::output

@@ -27,7 +27,7 @@ void writeHeader(Hdf5File& out, const Snapshot& snapshot, const std::string& ver
   out.attribute("/grid", "dimension", snapshot.grid.dimension);
 }
 
-/// Writes each box as its level, lower x, y, z and upper x, y, z, and each level as the widths of its cells.
+/// Writes each box as its level, lower corner x, y, z and upper corner x, y, z, and each level as its cell widths.
 void writeBoxes(Hdf5File& out, const GridInfo& grid) {
   std::vector<std::int32_t> boxes;
   for (const GridBox& box : grid.boxes) {
@@ -52,8 +52,8 @@ void writeGroup(Hdf5File& out, const ParticleBlock& block) {
   out.attribute(group, "index", block.materialIndex);
 }
 
-/// Adds the reference table. Modules that compare with the same solution give the same table: the first of each column
-/// is kept.
+/// Adds the reference table. If several modules compare with the same solution, they provide the same table; the first
+/// of each column is kept.
 void addReference(std::vector<Dataset>& all, const std::vector<Array>& columns) {
   std::vector<std::string> added;
   for (const Array& column : columns) {

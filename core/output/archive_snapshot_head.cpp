@@ -13,7 +13,7 @@ namespace tushar::output {
 
 namespace {
 
-/// The array of a dataset, without values, by its number of entries.
+/// The array of a dataset, without values but with its number of entries.
 Array arrayOf(const Hdf5Input& file, const std::string& path, const std::string& label, std::size_t entries) {
   Array array{label, "", "", 1, {}};
   const Hdf5Input::Placed placed = file.placed(path);
@@ -23,7 +23,7 @@ Array arrayOf(const Hdf5Input& file, const std::string& path, const std::string&
   return array;
 }
 
-/// The names in a group, in the order in which they were made.
+/// The names in a group, in order of creation.
 std::vector<std::string> namesIn(const Hdf5Input& file, const std::string& group) {
   std::vector<std::pair<std::uint64_t, std::string>> places;
   for (const std::string& name : file.names(group)) places.emplace_back(file.placeOf(group + "/" + name), name);
@@ -47,10 +47,11 @@ std::vector<ParticleBlock> particlesOf(const Hdf5Input& file, const ArchiveIndex
   return blocks;
 }
 
-/// Fields by their offset in the file, which is the order in which they were made.
+/// Fields sorted by their offset in the file, which is the order in which they were created.
 using PlacedFields = std::map<std::uint64_t, FieldBlock>;
 
-/// Adds the fields of an HDF5 group: of a material, or, for the root, of no material and of each group in it.
+/// Adds the fields in an HDF5 group: those of a material or, for the root group, the fields without material and those
+/// in each subgroup.
 void addFields(const Hdf5Input& file, const ArchiveIndex& index, const FieldBlock& like, const std::string& group,
                PlacedFields& all) {
   for (const std::string& name : file.names(group)) {

@@ -7,8 +7,8 @@
 
 namespace tushar::output {
 
-/// The snapshot in an output file, with the number of values, but without the values. `index` has the names of
-/// variables, of which a file has only those of its datasets. FileError if the file cannot be read.
+/// Reads the snapshot in an output file: the number of values, but not the values. `index` has the names of all
+/// variables; the file contains only some of them. Throws FileError if the file cannot be read.
 Snapshot readHead(const std::filesystem::path& file, const ArchiveIndex& index);
 
 }  // namespace tushar::output

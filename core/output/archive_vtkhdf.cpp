@@ -16,7 +16,7 @@ using Shape = std::vector<std::uint64_t>;
 
 constexpr const char* root = "/VTKHDF";
 
-/// Outputs in the order of time.
+/// Outputs sorted by time.
 using Times = std::vector<const ShownOutput*>;
 
 Times inOrder(Times times) {
@@ -30,7 +30,7 @@ Times inOrder(const std::vector<ShownOutput>& outputs) {
   return inOrder(std::move(times));
 }
 
-/// An item for each name that occurs at any time.
+/// Collects one item for each name that occurs at any time.
 Items kindsOf(const Times& times) {
   Items kinds;
   const Items* last = nullptr;
@@ -49,7 +49,7 @@ std::vector<double> valuesOf(const Times& times) {
 
 // --- particles
 
-/// Adds a dataset of the values at all times, one after the other.
+/// Adds a dataset that contains the values of all times, one after the other.
 void addColumn(Hdf5File& file, const std::string& name, const Item& kind, const Times& times) {
   std::vector<VirtualPart> parts;
   std::uint64_t before = 0;
@@ -65,7 +65,8 @@ void addColumn(Hdf5File& file, const std::string& name, const Item& kind, const 
   file.virtualDataset(inRoot(name), kind.type, kind.shapeOf(before), parts);
 }
 
-/// Adds a vertex for each point. All times show the start of the same 0, 1, 2, …, as numbers of points and as offsets.
+/// Adds a vertex for each point. All times use the beginning of the same sequence 0, 1, 2, … as indices of points and
+/// as offsets.
 void addVertices(Hdf5File& file, const std::vector<std::uint64_t>& counts, std::uint64_t total) {
   const std::uint64_t most = *std::max_element(counts.begin(), counts.end());
   const std::string numbers = inRoot("Connectivity");
@@ -131,7 +132,7 @@ struct ShownTime {
   double time;
   std::vector<const ShownOutput*> parts{};
 
-  /// The output that has an item, and the item; null pointers if there is none.
+  /// The output that contains an item of this name, and the item; null pointers if there is none.
   std::pair<const ShownOutput*, const Item*> find(const std::string& name) const {
     for (const ShownOutput* part : parts)
       if (const auto found = part->items->find(name); found != part->items->end()) return {part, &found->second};
@@ -149,7 +150,7 @@ std::vector<ShownTime> together(const Times& outputs) {
   return times;
 }
 
-/// Adds the parts of a step; where one layer of nodes is drawn as two layers of corners, both show its values.
+/// Adds the parts of a step. If a single layer of nodes is drawn as two layers of corners, both layers show its values.
 void addAtStep(std::vector<VirtualPart>& parts, const std::string& output, const Item& item, const Shape& room,
                std::uint64_t step) {
   Shape extent{1};

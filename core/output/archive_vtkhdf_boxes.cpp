@@ -21,14 +21,14 @@ using BoxCells = std::array<std::int32_t, 6>;
 
 struct ShownBox {
   int level = 0;
-  Shape cells;                          ///< along z, y, x
-  std::vector<double> corner, spacing;  ///< along x, y, z, m
-  std::uint64_t first = 0;              ///< row of its first cell
+  Shape cells;                          ///< number of cells along z, y, x
+  std::vector<double> corner, spacing;  ///< corner and cell width along x, y, z [m]
+  std::uint64_t first = 0;              ///< row of the first cell
 
   std::uint64_t count() const { return cells[0] * cells[1] * cells[2]; }
 };
 
-/// The first row of a grid; a time without boxes has one grid, whose values have the axes z, y and x.
+/// The first row of a grid; an output without boxes has one grid, whose values have the axes z, y and x.
 std::uint64_t firstRowOf(const pugi::xml_node& grid) {
   const pugi::xml_node slab = grid.child("Attribute").child("DataItem").child("DataItem");
   const auto numbers = numbersIn<std::uint64_t>(slab.text().as_string());
@@ -57,7 +57,7 @@ std::vector<ShownBox> boxesOf(const pugi::xml_node& output) {
   return boxes;
 }
 
-/// The corner of the domain: along each axis, the lowest of any box.
+/// The lower corner of the domain: along each axis, the minimum over all boxes.
 std::vector<double> cornerOf(const std::vector<ShownBox>& boxes) {
   std::vector<double> corner(3, HUGE_VAL);
   for (const ShownBox& box : boxes)
@@ -75,7 +75,7 @@ BoxCells cellsOf(const ShownBox& box, const std::vector<double>& corner) {
   return cells;
 }
 
-/// Adds a box, as a part of the previous rows if it continues them.
+/// Adds a box; if it continues the previous rows, it becomes part of them.
 void addBox(std::vector<LevelRows>& all, const ShownBox& box, std::uint64_t place) {
   if (!all.empty() && all.back().level == box.level && all.back().first + all.back().rows == box.first) {
     ++all.back().boxes;
@@ -87,17 +87,17 @@ void addBox(std::vector<LevelRows>& all, const ShownBox& box, std::uint64_t plac
 
 // --- the file
 
-/// Rows of an output, and the end of the previous ones.
+/// A range of rows in an output, and the numbers of boxes and cells before it.
 struct Run {
   const ShownOutput* output;
   LevelRows rows;
   std::uint64_t boxesBefore, cellsBefore;
 };
 
-/// A level at all times.
+/// The boxes of a level at all times.
 struct ShownLevel {
   std::vector<std::uint64_t> counts, starts;  ///< number of boxes and first box, at each time
-  std::vector<std::uint64_t> cellsBefore;     ///< number of previous cells, at each time
+  std::vector<std::uint64_t> cellsBefore;     ///< number of cells in all previous boxes, at each time
   std::vector<Run> runs;
   std::uint64_t boxes = 0, cells = 0;
 };
@@ -118,7 +118,7 @@ ShownLevel levelOf(int number, const std::vector<const ShownOutput*>& outputs) {
   return level;
 }
 
-/// The cells of all boxes of a level, from the scratch file.
+/// The cells of all boxes of a level, read from the scratch file.
 class CellsOfBoxes : public Source {
  public:
   CellsOfBoxes(const ShownLevel& level, const Scratch& scratch) : level_(level), scratch_(scratch) {}

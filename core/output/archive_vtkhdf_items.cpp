@@ -14,13 +14,13 @@ Array::Values typeOf(const pugi::xml_node& item) {
   return std::vector<std::int32_t>{};
 }
 
-/// The name of an Attribute of XDMF: `CellData/c.temperature`.
+/// The name of an XDMF Attribute in the VTKHDF file: `CellData/c.temperature`.
 std::string nameOf(const pugi::xml_node& attribute) {
   const bool ofCells = std::string(attribute.attribute("Center").as_string()) == "Cell";
   return (ofCells ? "CellData/" : "PointData/") + nameInPath(attribute.attribute("Name").as_string());
 }
 
-/// The dataset of which a HyperSlab shows rows; other items are returned unchanged.
+/// The dataset whose rows a HyperSlab shows; other items are returned unchanged.
 pugi::xml_node wholeOf(const pugi::xml_node& item) {
   const pugi::xml_node slab = item.child("DataItem");
   return slab ? slab.next_sibling("DataItem") : item;

@@ -31,7 +31,7 @@ struct StoredRows {
 
 /// The common properties of the items of one output.
 struct Context {
-  std::string file;  ///< of HDF5, relative to the XDMF file
+  std::string file;  ///< path of the HDF5 file, relative to the XDMF file
   bool doubleAsFloat;
 };
 
@@ -42,8 +42,8 @@ pugi::xml_node addGrid(pugi::xml_node parent, const std::string& name, const cha
   return grid;
 }
 
-/// Adds an item with values in HDF5. Readers do not support 8-byte unsigned integers, so ids are declared as signed
-/// ones.
+/// Adds an item whose values are in an HDF5 file. Readers do not support 8-byte unsigned integers, so ids are declared
+/// as signed ones.
 void addHeavyItem(pugi::xml_node parent, const Context& context, const std::string& path, const Array& array,
                   Shape shape) {
   if (array.components > 1) shape.push_back(static_cast<std::uint64_t>(array.components));
@@ -115,7 +115,7 @@ void addPointCloud(pugi::xml_node grid, const Context& context, const ParticleBl
 
 Vec3 reversed(const Vec3& xyz) { return {xyz[2], xyz[1], xyz[0]}; }
 
-/// The position of the first node; along an axis that is not in use, the only node is in the middle.
+/// The position of the first node; along an axis that is not in use, the single node is in the middle.
 Vec3 firstNode(const GridInfo& grid) {
   Vec3 at = grid.lower + grid.spacing / 2;
   for (const int axis : axesInUse(grid)) at[axis] = grid.lower[axis];
@@ -141,14 +141,14 @@ void addUniformGrid(pugi::xml_node grid, const GridInfo& info, Centring centring
   addMesh(grid, points, cells ? info.lower : firstNode(info), info.spacing);
 }
 
-/// The name of a field in the file that shows it.
+/// The name of a field as shown in the file.
 std::string nameOf(const FieldBlock& field) {
   const std::string group = field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex) + "/";
   return group + field.array.label;
 }
 
-/// Adds a uniform grid for each box, with its part of each field. A reader would search long for names of its own if
-/// grids of several times had the same.
+/// Adds a uniform grid for each box, with its part of each field. Grids of different times have different names,
+/// because a reader would search long for new names if several grids had the same one.
 void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot& snapshot) {
   set(collection, "CollectionType", "Spatial");
   std::uint64_t first = 0;
@@ -254,7 +254,7 @@ void XdmfIndex::addFields(const Snapshot& snapshot, Centring centring) {
   });
 }
 
-/// Adds the particles of a time; without particles it is an empty collection, because readers refuse a grid of 0
+/// Adds the particles at one time. If there are none, adds an empty collection, because readers refuse a grid of 0
 /// points.
 void XdmfIndex::addParticles(const Snapshot& snapshot, const ParticleBlock& block) {
   const std::string name = groupName(block.material, block.materialIndex);

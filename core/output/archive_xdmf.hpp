@@ -14,19 +14,19 @@
 
 namespace tushar::output {
 
-/// The XDMF file that shows an archive to ParaView: a temporal collection of point clouds for each material, and one of
-/// uniform grids for the cells and one for the nodes. On a refined grid, these are collections of spatial collections,
-/// with a uniform grid for each box. The numbers stay in the HDF5 files. The text of each output waits in a scratch
-/// file until the whole is written. Beside it, what the VTKHDF files show.
+/// The XDMF file with which ParaView shows an archive: a temporal collection of point clouds for each material, one of
+/// uniform grids for the cells, and one for the nodes. On a refined grid, these are collections of spatial collections,
+/// with a uniform grid for each box. The values stay in the HDF5 files. The text of each output is kept in a scratch
+/// file until the whole file is written. Also keeps what the VTKHDF files show.
 class XdmfIndex {
  public:
-  /// `file` is the file to write.
+  /// `file` is the path of the XDMF file.
   XdmfIndex(std::filesystem::path file, bool doubleAsFloat);
 
-  /// Continues with those outputs of the existing file that an index lists. Those that it lacks, as after a power cut,
-  /// are taken from the heads of their own files, where they can be read.
+  /// Continues with those outputs of the existing file that are listed in an index. Outputs that the file lacks, as
+  /// after a power cut, are taken from the heads of their own files, where they can be read.
   void resume(const ArchiveIndex& index);
-  /// Adds a time, or replaces that of the same step.
+  /// Adds an output; replaces an earlier output of the same step.
   void add(const Snapshot& snapshot);
   /// Writes the whole file.
   void write() const;
@@ -35,7 +35,7 @@ class XdmfIndex {
   const std::filesystem::path& file() const { return file_; }
 
  private:
-  /// The text of an output, in the scratch file.
+  /// The text of an output, stored in the scratch file.
   struct Text {
     int step;
     std::uint64_t first, size;

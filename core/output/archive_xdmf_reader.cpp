@@ -24,15 +24,14 @@ constexpr unsigned depthOfBlocks = depthOfOutputs - 1;
 
 std::string nameOfGrid(const pugi::xml_node& grid) { return grid.attribute("Name").as_string(); }
 
-/// The document of a text; empty if it cannot be parsed.
+/// Parses a text; the document is empty if the text is invalid.
 pugi::xml_document parsed(const std::string& text) {
   pugi::xml_document document;
   if (!document.load_buffer(text.data(), text.size())) document.reset();
   return document;
 }
 
-/// The position of a reader: `depth` elements are open, and `text` is the part of the current output that has been
-/// read.
+/// The state of a reader: `depth` elements are open, and `text` is the part of the current output that has been read.
 struct Place {
   const TakeOutput& take;
   unsigned depth = 0;

@@ -7,10 +7,10 @@
 
 namespace tushar::output {
 
-/// The number of elements around an output: Xdmf, Domain, and the Grid of its block.
+/// The number of elements that enclose an output: Xdmf, Domain, and the Grid of its block.
 constexpr unsigned depthOfOutputs = 3;
 
-/// The name, in an XDMF file, of a block's grid at a step.
+/// The name of a block's grid at a step in an XDMF file.
 std::string nameAtStep(const std::string& block, int step);
 
 /// The tag that begins the temporal collection of a block in the file.
@@ -19,7 +19,7 @@ std::string headOfBlock(const std::string& name);
 /// A function that is called for each output of a block in an XDMF file: the name of the block, the step, and the grid.
 using TakeOutput = std::function<void(const std::string& block, int step, const pugi::xml_node& grid)>;
 
-/// Reads an XDMF file of an archive, with one output in memory at a time. False where the file is missing or
+/// Reads an XDMF file of an archive, with only one output in memory at a time. Returns false if the file is missing or
 /// torn; some outputs may have been taken then.
 bool readXdmf(const std::filesystem::path& file, const TakeOutput& take);
 

@@ -9,7 +9,7 @@
 
 namespace tushar::output {
 
-/// Sets attributes, name by value; numbers are written so that they read back exactly.
+/// Sets attributes, given as alternating names and values; numbers are written so that they are read back exactly.
 template <class Value, class... More>
 void set(pugi::xml_node node, const char* name, const Value& value, const More&... more) {
   node.append_attribute(name) = fmt::format("{}", value).c_str();

@@ -76,7 +76,7 @@ long Behind::put(std::vector<std::byte> buffer, std::function<void()> job) {
   return given_;
 }
 
-/// Starts the thread; signals still go to the main thread.
+/// Starts the thread; signals are still delivered to the main thread.
 void Behind::start() {
   sigset_t all, before;
   sigfillset(&all);

@@ -4,7 +4,7 @@
 
 namespace tushar::output {
 
-/// Bytes of a file: [first, last).
+/// A range of bytes in a file: [first, last).
 struct ByteRange {
   std::uint64_t first = 0, last = 0;
   std::uint64_t size() const { return last - first; }

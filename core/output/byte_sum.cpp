@@ -17,7 +17,8 @@ __extension__ using Wide = unsigned __int128;
 
 constexpr int bits = 61;
 constexpr std::uint64_t prime = (std::uint64_t{1} << bits) - 1;
-constexpr std::uint64_t base = 0x16c86fac93223801;  ///< a primitive root, chosen at random
+/// Base of the polynomial: a primitive root of the prime, chosen at random.
+constexpr std::uint64_t base = 0x16c86fac93223801;
 constexpr std::size_t wordBytes = sizeof(std::uint64_t);
 
 /// Reduces a number modulo the prime; the result may still be slightly larger than the prime.
@@ -41,8 +42,8 @@ std::uint64_t wordAt(const std::byte* from, std::size_t number) {
   return word;
 }
 
-/// The sum of w_k r^k over words, starting with k = 0: by Horner's rule for every fourth word, so that no sum waits for
-/// the others.
+/// The sum of w_k r^k over words, starting with k = 0. Uses Horner's rule for four interleaved sums of every fourth
+/// word, so that no sum waits for another.
 std::uint64_t sumOfWords(const std::byte* words, std::size_t count) {
   constexpr std::size_t lanes = 4;
   static const std::uint64_t stride = powerOf(base, lanes);
@@ -57,7 +58,7 @@ std::uint64_t sumOfWords(const std::byte* words, std::size_t count) {
   return total;
 }
 
-/// The parts of a sequence of ranges between two bytes, which are counted through the ranges.
+/// The parts of a sequence of ranges that lie between two bytes, counted along the sequence.
 std::vector<ByteRange> between(std::span<const ByteRange> ranges, std::uint64_t first, std::uint64_t last) {
   std::vector<ByteRange> found;
   for (std::uint64_t before = 0; const ByteRange& range : ranges) {
@@ -72,7 +73,7 @@ std::vector<ByteRange> between(std::span<const ByteRange> ranges, std::uint64_t 
 
 }  // namespace
 
-/// r^number.
+/// Computes r^number.
 std::uint64_t ByteSum::power(std::uint64_t number) {
   if (number < last_) {
     last_ = 0;

@@ -26,14 +26,17 @@ namespace {
 
 constexpr const char* manifestName = "manifest";
 
-constexpr std::uint64_t blockBytes = std::uint64_t{1} << 24;   ///< size of the blocks for the hashes of older versions
-constexpr std::uint64_t leastOfPart = std::uint64_t{1} << 16;  ///< shorter parts are read twice
+/// Size of the blocks for the hashes of older versions [bytes].
+constexpr std::uint64_t blockBytes = std::uint64_t{1} << 24;
+/// Smallest size of a part with a sum of its own [bytes]. Shorter parts are read twice: for the check, and for their
+/// values.
+constexpr std::uint64_t leastOfPart = std::uint64_t{1} << 16;
 
 struct StateFree {
   void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
 };
 
-/// The hash of bytes of a file, read piece by piece; none if it cannot be read.
+/// The hash of bytes of a file, read piece by piece; none if the file cannot be read.
 std::optional<XXH64_hash_t> hashOf(std::ifstream& in, std::uint64_t first, std::uint64_t count) {
   const std::unique_ptr<XXH64_state_t, StateFree> state(XXH64_createState());
   XXH64_reset(state.get(), 0);
@@ -70,16 +73,16 @@ std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, co
   return hashes;
 }
 
-/// The hash of a file in a manifest, from those of its blocks.
+/// The hash of a file in a manifest, computed from the hashes of its blocks.
 std::string hashOf(const std::vector<std::uint64_t>& blocks) {
   if (blocks.size() == 1) return fmt::format("{:016x}", blocks.front());
   return fmt::format("{:016x}/{}", XXH64(blocks.data(), blocks.size() * sizeof(blocks[0]), 0), blocks.size());
 }
 
-/// The text of a sum, which differs from that of a hash of older versions.
+/// The text of a sum in a manifest; it cannot be confused with a hash of older versions.
 std::string textOfSum(std::uint64_t sum) { return fmt::format("s{:016x}", sum); }
 
-/// The parts of a file outside these ascending ranges.
+/// The parts of a file outside the given ascending ranges.
 std::vector<ByteRange> outside(const std::vector<ByteRange>& ranges, std::uint64_t size) {
   std::vector<ByteRange> others;
   std::uint64_t first = 0;
@@ -122,7 +125,7 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   return files;
 }
 
-/// Name and size of a file in the manifest, as found in the folder, for all ranks.
+/// The name and size of a file in the folder; the same on all ranks.
 struct ListedFile {
   std::string name;
   std::uint64_t size;
@@ -153,7 +156,7 @@ struct Line {
 
 constexpr std::string_view formatWord = "format ";
 
-/// The format of a manifest with these lines; 0 if it has no number.
+/// The format of a manifest with these lines; 0 if they do not contain a format number.
 int formatOf(const std::string& lines) {
   if (!lines.starts_with(formatWord)) return 0;
   int format = std::numeric_limits<int>::max();  // of a number beyond it, or of another word
@@ -168,7 +171,7 @@ std::vector<Line> linesOf(const std::string& text) {
   return lines;
 }
 
-/// Inspects the manifest, and the names and sizes of files; `lines` gets its lines, one per file.
+/// Checks the manifest, and the names and sizes of the files; sets `lines` to the lines of the manifest, one per file.
 Inspection inspectList(const fs::path& folder, std::string& lines) {
   const auto text = textOf(folder / manifestName);
   if (!text) return {fmt::format("{} is missing", manifestName)};
@@ -190,8 +193,8 @@ Inspection inspectList(const fs::path& folder, std::string& lines) {
   return {};
 }
 
-/// The hash of a file, as in manifests of older versions; empty if the file cannot be read. The oldest manifests hash a
-/// large file as a whole, not by blocks; rank 0 alone does that.
+/// The hash of a file, computed as in manifests of older versions; empty if the file cannot be read. The oldest
+/// manifests contain the hash of a whole large file, not of its blocks; only rank 0 computes it.
 std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
   const bool isByBlocks = line.hash.find('/') != std::string::npos;
   bool failed = false;
@@ -213,7 +216,7 @@ std::string hashNow(const fs::path& file, const Line& line, const mpi::Communica
 std::string unreadable(const std::string& name) { return fmt::format("{} cannot be read", name); }
 std::string changed(const std::string& name) { return fmt::format("the content of {} has changed", name); }
 
-/// Damage to bytes of a file with a known sum; ranks read them together.
+/// Finds damage in bytes of a file whose sum is known; all ranks read the bytes together.
 std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, std::uint64_t expected,
                         const std::function<std::uint64_t()>& mine) {
   std::uint64_t sum = 0;
@@ -227,7 +230,7 @@ std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, st
   return sumsOfRanks(ranks, {&sum, 1}).front() == expected ? "" : changed(file.filename().string());
 }
 
-/// Damage to a file, apart from some parts.
+/// Finds damage in a file outside some parts.
 std::string damageOutside(const fs::path& file, const Line& line, const std::vector<Line>& lines,
                           const mpi::Communicator& ranks) {
   if (!line.isSum()) {

@@ -11,14 +11,14 @@
 
 namespace tushar::output {
 
-/// Bytes of a file with their own checksum, which can be checked while they are read.
+/// A range of bytes of a file with its own checksum, which can be checked while the bytes are read.
 struct FilePart {
-  std::string file;  ///< its name
+  std::string file;  ///< name of the file
   ByteRange bytes;
-  std::uint64_t sum = 0;  ///< the ByteSum, for parts from a manifest
+  std::uint64_t sum = 0;  ///< checksum (ByteSum), for parts listed in a manifest
 };
 
-/// Format of manifests; raised whenever older readers would misread it. Format 1 had hashes of files and of their
+/// Format of manifests, raised whenever older readers would misread them. Format 1 had hashes of files and of their
 /// blocks, 2 sums of files and their parts; neither states its number.
 inline constexpr int manifestFormat = 3;
 
@@ -32,35 +32,37 @@ void writeManifest(const std::filesystem::path& folder, const Writers& writers =
 
 /// The result of inspecting a folder with a manifest.
 struct Inspection {
-  std::string damage;             ///< which file is missing, or has a different size or content; empty if none
-  bool isNewer = false;           ///< whether a newer version has written it, which `damage` then states
-  std::vector<FilePart> parts{};  ///< parts that have not been read
+  /// Which file is missing, or has a different size or content; empty if there is no damage.
+  std::string damage;
+  bool isNewer = false;           ///< whether a newer version has written the folder; `damage` then says so
+  std::vector<FilePart> parts{};  ///< parts that have not been checked yet
 };
 
-/// Inspects a folder; does not read the parts. Ranks share the bytes among themselves. Collective; all get the same.
-/// Understands manifests of older versions, which may have no parts, and the XXH64 of files or that of the XXH64 of
-/// their blocks of 2^24 bytes.
+/// Inspects a folder, but does not read the parts. Ranks divide the bytes among themselves. Collective; all ranks get
+/// the same result. Also reads manifests of older versions, which have no parts, and contain the XXH64 of each file or
+/// the XXH64 of the XXH64s of its blocks of 2^24 bytes.
 Inspection inspect(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
-/// Damage in a folder, including the parts; empty if there is none. Collective; all get the same.
+/// Inspects a folder, including the parts, and describes the damage; empty if there is none. Collective; all ranks get
+/// the same result.
 std::string damageOf(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
-/// A damaged part; the text is that of Inspection::damage.
+/// Exception for a damaged part; its text is that of Inspection::damage.
 class DamageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Parts that are checked while ranks read the bytes that they need. Collective; where it throws DamageError, all ranks
-/// do.
+/// Parts of files that are checked while ranks read the bytes that they need. All functions are collective; if one
+/// throws DamageError, it does so on all ranks.
 class CheckedParts {
  public:
-  /// `ranks` must outlive it.
+  /// `ranks` must outlive this object.
   CheckedParts(std::filesystem::path folder, std::vector<FilePart> parts, const mpi::Communicator& ranks);
-  /// Calls `read` for the part of a file that begins at a given byte, with a sum to which it adds the bytes that this
-  /// rank reads; all ranks together must add every byte once. Passes null if there is no such part, or it has been
+  /// Calls `read` for the part of a file that begins at a given byte, with a sum to which `read` adds the bytes that
+  /// this rank reads; all ranks together must add every byte once. Passes null if there is no such part, or it has been
   /// checked.
   void read(const std::string& file, std::uint64_t first, const std::function<void(ByteSum*)>& read);
-  /// Reads the parts that have not been read.
+  /// Reads and checks all parts that have not been read yet.
   void checkOthers();
 
  private:

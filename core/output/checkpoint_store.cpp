@@ -88,7 +88,7 @@ void CheckpointStore::setLatest(int step, bool waitsForDisk) const {
   waitsForDisk ? replaceFileOnDisk(folder_ / latestName, name) : replaceFile(folder_ / latestName, name);
 }
 
-/// Removes a checkpoint. Renames its folder first, so that a partly removed one is not taken for a checkpoint.
+/// Removes a checkpoint. Renames its folder first, so that a partly removed folder is not mistaken for a checkpoint.
 void CheckpointStore::remove(int step) const {
   moveInto(folder(step), temporaryOf(folder(step)));
   removeLeftovers();

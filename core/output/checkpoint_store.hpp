@@ -10,11 +10,11 @@
 
 namespace tushar::output {
 
-/// The folder `checkpoints` of an archive. It does not depend on the contents of a checkpoint.
+/// The folder `checkpoints` of an archive. This class does not interpret the contents of a checkpoint.
 ///
 ///     sod.uda.001/checkpoints/LATEST     the name of the newest, `t00050`
 ///                             t00040/    the one before
-///                             t00050/    files, and the manifest, which shows whether they are as they were written
+///                             t00050/    files, and the manifest, with their checksums
 ///
 /// A checkpoint is written under a temporary name, brought to the disk, and then renamed; only then LATEST is replaced
 /// (by a rename, too), and only then the oldest is removed. So a run that is killed, or finds the disk full, leaves the
@@ -46,11 +46,12 @@ class CheckpointStore {
   /// Makes the checkpoint of a step the latest, and removes those after it.
   void goBackTo(int step) const;
 
-  /// The folder of a step's checkpoint.
+  /// The folder of the checkpoint of a step.
   std::filesystem::path folder(int step) const;
   /// Steps of the existing checkpoints, intact or not, ascending.
   std::vector<int> steps() const;
-  /// The step in LATEST, or that of the last checkpoint if there is no LATEST; -1 if there is no checkpoint.
+  /// The step in the file LATEST, or the step of the last checkpoint if there is no such file; -1 if there is no
+  /// checkpoint.
   int latest() const;
 
  private:

@@ -5,18 +5,19 @@
 
 namespace tushar::output {
 
-/// Decides when to rewrite a list that can only be written as a whole. Writing takes longer the more it lists: so it
-/// waits for a second after the last time, and for 20 times as long as that has taken.
+/// Decides when to rewrite a list that can only be written as a whole, which takes longer the longer the list is.
+/// Between two rewrites, at least one second and at least 20 times the duration of the previous rewrite must therefore
+/// pass.
 class Pace {
  public:
-  /// Notes that there is a new entry; `urgent` if readers need it at once.
+  /// Records that there is a new entry; `urgent`: whether readers need it immediately.
   void note(bool urgent) {
     behind_ = true;
     urgent_ = urgent_ || urgent;
   }
   bool isBehind() const { return behind_; }
   bool isDue() const { return urgent_ || (behind_ && Clock::now() >= next_); }
-  /// Calls `write`; the list is then up to date, unless it throws.
+  /// Calls `write`; the list is then up to date, unless `write` throws.
   template <class Write>
   void catchUp(const Write& write) {
     const auto started = Clock::now();

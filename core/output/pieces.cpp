@@ -25,7 +25,7 @@ std::uint32_t takeShort(const std::byte*& from) {
 }
 
 /// Packs the entries of a piece on this rank: the numbers of entries and of stretches, the bytes of the entries, and
-/// for each stretch its length and the number of entries of other ranks before it. Empty where it has none.
+/// for each stretch its length and the number of entries of other ranks before it. Empty if the rank has no entries.
 mpi::Bytes packed(const Source& source, const Piece& piece, std::size_t bytes, mpi::Outbox& outbox) {
   const std::vector<Stretch> stretches = source.stretches(piece.first, piece.count);
   std::size_t count = 0;

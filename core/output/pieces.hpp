@@ -11,16 +11,16 @@
 
 namespace tushar::output {
 
-/// Consecutive entries of an array.
+/// A range of consecutive entries of an array.
 struct Piece {
   std::size_t first = 0, count = 0;
 };
 
-/// Largest size of a piece, in bytes. On a single rank, it should stay in the processor's cache while it is written;
-/// with several, which wait for each other at each piece, it should be small compared with 64 MB.
+/// Largest size of a piece [bytes]. On a single rank, a piece should fit into the processor's cache while it is
+/// written. On several ranks, which wait for each other at each piece, it should be small compared with 64 MB.
 std::size_t mostOfPiece(const Writers& writers);
 
-/// Size of an entry in memory, and of all entries on all ranks, in bytes.
+/// Size of an entry in memory; `bytesOf`: size of all entries on all ranks [bytes].
 std::size_t entryBytes(const Array& array);
 std::uint64_t bytesOf(const Array& array);
 
@@ -28,11 +28,11 @@ std::uint64_t bytesOf(const Array& array);
 /// for only one piece, and a rank for its parts of the other pieces.
 class Pieces {
  public:
-  /// `writers` must outlive it.
+  /// `writers` must outlive this object.
   explicit Pieces(const Writers& writers) : writers_(&writers), outbox_(writers.ranks()) {}
 
-  /// Sends each writer its piece of the array, which must have a source; `of[w]` is for writer w. Returns the entries
-  /// of this rank's own piece, in `into`, which grows to hold them. Collective.
+  /// Sends each writer its piece of the array, which must have a source; `of[w]` is the piece of writer w. Returns the
+  /// entries of this rank's own piece, stored in `into`, which is enlarged if necessary. Collective.
   std::span<std::byte> bring(const Array& array, std::span<const Piece> of, std::vector<std::byte>& into);
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// `2026-01-31T12:00:00Z`.
+/// The current date and time (UTC) as text: `2026-01-31T12:00:00Z`.
 std::string dateNow() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -37,7 +37,7 @@ Json entryOf(const RunRecord& record) {
   return entry;
 }
 
-/// The runs listed in a file; none if there is no file, or if it is damaged, in which case it is moved away.
+/// The runs listed in a file; none if there is no file, or if the file is damaged (it is then moved away).
 Json runsIn(const fs::path& file) {
   Json empty = {{"format", RunLog::format}, {"runs", Json::array()}};
   const auto text = textOf(file);

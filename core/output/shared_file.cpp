@@ -27,7 +27,7 @@ void SharedFile::note(const std::string& what) {
                            std::generic_category().message(errno ? errno : EIO));
 }
 
-/// Writes a part; if it is large, the system starts to write it to the disk while the next is made.
+/// Writes a part; if it is large, the system starts to write it to the disk while the next part is prepared.
 void SharedFile::write(std::uint64_t at, const std::byte* from, std::size_t count, const std::string& what) {
   constexpr std::size_t large = std::size_t{1} << 18;
   const std::uint64_t first = at;

@@ -20,7 +20,7 @@ bool isNarrowed(const Storage& how, const Array& array) {
   return how.doubleAsFloat && std::holds_alternative<std::vector<double>>(array.values);
 }
 
-/// Adds its lifetime to a number, s.
+/// Measures the time [s] from its construction to its destruction, and adds it to a number.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -34,10 +34,10 @@ class Stopwatch {
   Clock::time_point started_ = Clock::now();
 };
 
-/// A file that rank 0 has begun, and whose values are written later.
+/// A file that rank 0 has created and whose values are written later.
 struct Begun {
   std::shared_ptr<Hdf5File> file;
-  std::vector<std::uint64_t> rooms;  ///< the offset of each dataset with a source
+  std::vector<std::uint64_t> rooms;  ///< the offset of each dataset that has a source
 };
 
 /// Whether a file is so small that its form may be kept in memory.
@@ -120,11 +120,11 @@ std::vector<Slab> slabsOf(const Writers& writers, const Storage& how, const std:
 
 }  // namespace
 
-/// Compresses datasets: each writer packs one chunk at a time, and rank 0 writes them to the file in order: at once if
-/// it is the only writer, otherwise when all chunks of a round are packed.
+/// Compresses datasets. Each writer packs one chunk at a time, and rank 0 writes the chunks to the file in order:
+/// immediately if it is the only writer, otherwise when all chunks of a round are packed.
 class FileInFlight::Chunks {
  public:
-  /// The file is open on rank 0.
+  /// The file must be open on rank 0.
   Chunks(const Writers& writers, Behind& behind, const Storage& how, std::shared_ptr<Hdf5File> file)
       : writers_(writers),
         behind_(behind),
@@ -166,17 +166,17 @@ class FileInFlight::Chunks {
   }
 
  private:
-  static constexpr std::size_t largestChunk = std::size_t{1} << 20;  ///< bytes
+  static constexpr std::size_t largestChunk = std::size_t{1} << 20;  ///< largest size of a chunk [bytes]
 
-  /// A chunk for each writer, of one dataset.
+  /// One chunk of the same dataset for each writer.
   struct Round {
     std::string dataset;
     std::vector<Extents> corners;
     std::shared_ptr<PackedChunk> mine;
-    long job;  ///< the job that packs it
+    long job;  ///< number of the job that packs the chunk
   };
 
-  /// Packs the entries of a chunk; `share` is the ratio of the size of the numbers in the file to that in memory.
+  /// Packs the entries of a chunk; `share` is the ratio of the size of the numbers in the file to their size in memory.
   static PackedChunk packed(ChunkPacker& packer, std::span<const std::byte> entries, double share, PackingUse& use) {
     const Stopwatch watch(use.packing);
     PackedChunk chunk = packer.pack(entries);
@@ -226,7 +226,7 @@ class FileInFlight::Chunks {
     }
   }
 
-  /// The chunks of all writers, on rank 0.
+  /// Returns the chunks of all writers, on rank 0.
   std::vector<PackedChunk> gathered(PackedChunk mine) {
     std::vector<PackedChunk> all(file_ ? static_cast<std::size_t>(writers_.count()) : 0);
     std::vector<mpi::Letter> letters;
@@ -251,8 +251,8 @@ class FileInFlight::Chunks {
   Storage how_;
   std::shared_ptr<Hdf5File> file_;
   mpi::Outbox outbox_;
-  std::shared_ptr<PackingUse> use_;  ///< by jobs
-  PackingUse placing_;               ///< time spent by this thread
+  std::shared_ptr<PackingUse> use_;  ///< time and size of compression, recorded by the jobs
+  PackingUse placing_;               ///< time spent by this thread on writing chunks to the file
   std::shared_ptr<std::optional<ChunkPacker>> packer_;
   std::deque<Round> rounds_;  ///< rounds whose chunks are not yet in the file
   std::exception_ptr failure_;

@@ -28,7 +28,7 @@ std::span<std::byte> narrowed(std::span<std::byte> numbers) {
 
 std::uint64_t entryBytesInFile(const Slab& slab) { return entryBytes(*slab.array) / (slab.asFloat ? 2 : 1); }
 
-/// Sends one array to the writers, a piece to each at a time.
+/// Sends one array to the writers, one piece to each at a time.
 class SlabWriter {
  public:
   SlabWriter(const Writers& writers, Behind& behind, std::shared_ptr<SharedFile> file, Pieces& pieces, const Slab& slab)
@@ -49,14 +49,14 @@ class SlabWriter {
   }
 
  private:
-  /// The next bytes of a writer's slab, after the `done` ones.
+  /// The next bytes of a writer's slab, after the first `done` bytes.
   ByteRange next(int writer, std::uint64_t done) const {
     const ByteRange slab = slabOf(all_, writer, writers_.count());
     const std::uint64_t first = std::min(slab.first + done, slab.last);
     return {first, std::min(first + most_, slab.last)};
   }
 
-  /// The entries with bytes in a range.
+  /// The entries that have bytes in a range.
   Piece entriesOf(const ByteRange& bytes) const {
     if (bytes.size() == 0) return {};
     const std::uint64_t first = (bytes.first - slab_.offset) / entry_bytes_;
@@ -84,7 +84,7 @@ class SlabWriter {
   std::shared_ptr<SharedFile> file_;
   Pieces& pieces_;
   const Slab& slab_;
-  std::uint64_t entry_bytes_;  ///< in the file
+  std::uint64_t entry_bytes_;  ///< size of an entry in the file [bytes]
   ByteRange all_;
   std::uint64_t most_;
 };

@@ -6,17 +6,19 @@
 
 namespace tushar::output {
 
-/// Ranks that write files together, and the writers among them, which write the bytes. The first of these is rank 0.
+/// The ranks that take part in writing files, and the writers among them, which write the bytes. The first writer is
+/// rank 0.
 class Writers {
  public:
-  /// A single process.
+  /// A single process, which is the only writer.
   Writers() : Writers(mpi::Communicator::alone(), {0}) {}
-  /// The ranks with these numbers, ascending from 0. `ranks` must outlive it.
+  /// Writers with these rank indices, ascending from 0. `ranks` must outlive this object.
   Writers(const mpi::Communicator& ranks, std::vector<int> writers);
-  /// `count` evenly spread ranks, as given on rank 0; 0: one on each node. No more than there are. Collective.
+  /// Selects `count` evenly spaced ranks as writers, at most all ranks; if `count` is 0, one rank on each node. The
+  /// value of `count` on rank 0 applies to all ranks. Collective.
   static Writers spread(const mpi::Communicator& ranks, int count);
 
-  /// The ranks that pass `true`, and rank 0. Collective.
+  /// Returns a selection in which only those writers remain that pass `true`, and rank 0. Collective.
   Writers only(bool mine) const;
 
   const mpi::Communicator& ranks() const { return *ranks_; }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> order{"L1", "L2", "max", "relative"};  // of the values of data::Norm
 
-/// Whether an error has no values: then the maximum is -infinity and the mean NaN.
+/// Whether an error was measured at no place: then the maximum is -infinity and the mean is NaN.
 bool isOfNothing(const std::vector<double>& values) {
   if (values.size() == 1) return values[0] == -std::numeric_limits<double>::infinity();
   return values.empty() || (std::isnan(values[0]) && values[2] == 0);

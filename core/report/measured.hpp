@@ -7,19 +7,20 @@
 
 namespace tushar::report {
 
-/// An error norm that an analysis module computes: `density` at the `particle`s, by the reduction `label` of type
-/// data::Norm, or data::Maximum for max alone. `norms` lists those that mean something, of L1, L2, max and relative.
+/// An error that an analysis module measures, such as that of the quantity `density` at the `particle`s. The reduction
+/// `label` computes it; its type is data::Norm or, if only max is computed, data::Maximum. `norms` lists the meaningful
+/// ones among L1, L2, max and relative.
 struct MeasuredError {
   std::string field, place;
   const data::Label* label;
   std::vector<std::string> norms;
 };
 
-/// A part of an energy budget that an analysis module keeps: the total `label` (J).
+/// A term of an energy budget computed by an analysis module: the total `label` [J].
 struct EnergyTerm {
   enum class Side {
-    came,  ///< energy present at the start, or added since
-    went,  ///< energy present now, or lost
+    came,  ///< energy present at the start, or added since then
+    went,  ///< energy present now, or removed since the start
   };
   std::string name;
   const data::Label* label;

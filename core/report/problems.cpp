@@ -7,7 +7,7 @@ namespace tushar::report {
 
 namespace {
 
-/// The word x in ` (did you mean 'x'?)` at the end of a sentence.
+/// The word x if a sentence ends with ` (did you mean 'x'?)`.
 std::optional<std::string> suggestionIn(const std::string& sentence) {
   constexpr std::string_view before = "(did you mean '", after = "'?)";
   const std::size_t start = sentence.find(before);

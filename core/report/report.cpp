@@ -134,7 +134,7 @@ std::string energyTable(const Report& report) {
                             energies.greatest() > 0 ? energies.unaccounted() / energies.greatest() : 0.0);
 }
 
-/// The fractions of the threads' time during the time loop and its outputs.
+/// The fractions of the threads' time spent on each activity, during the time loop and its outputs.
 std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
   const double all = use.task + use.message + use.output + use.wait;
@@ -147,7 +147,7 @@ std::string useLine(const Report& report) {
       100 * use.output / all, 100 * use.wait / all, use.imbalance);
 }
 
-/// The memory of all ranks, in megabytes.
+/// The memory of all ranks [MB].
 std::string memoryLine(const Report& report) {
   const MemoryUse& sum = report.memoryOfRanks.sum;
   if (sum.peak <= 0) return "";
@@ -160,12 +160,12 @@ std::string memoryLine(const Report& report) {
       1e-6 * sum.peak, most, 1e-6 * sum.fields, 1e-6 * sum.particles, 1e-6 * sum.buffers, 1e-6 * sum.files);
 }
 
-/// The cost of updating a cell on several levels, relative to that on a uniform grid, by the number of dimensions:
-/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15, 1.8 to 3.1,
-/// and 1.9.
+/// The cost of updating a cell on several levels, relative to the cost on a uniform grid, by the number of dimensions:
+/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15 in one
+/// dimension, 1.8 to 3.1 in two, and 1.9 in three.
 double costOnLevels(int dimension) { return std::array{10.0, 2.5, 1.9}.at(std::clamp(dimension, 1, 3) - 1); }
 
-/// The cost of a uniform grid of the finest cells, and whether refinement has paid.
+/// The estimated cost of a uniform grid of the finest cells, and whether refinement has paid off.
 std::string uniformLine(const Report& report) {
   if (report.updates <= 0 || report.uniformUpdates <= 0) return "";
   const double saved = report.uniformUpdates / report.updates;
@@ -180,7 +180,7 @@ std::string uniformLine(const Report& report) {
              cost);
 }
 
-/// The cell updates of each level, if finer levels take smaller steps.
+/// The number of cell updates on each level, if finer levels take smaller steps.
 std::string updatesLine(const Report& report) {
   std::string updates;
   for (const double one : report.levelUpdates) updates += fmt::format("{}{:.4g}", updates.empty() ? "" : " + ", one);
@@ -188,7 +188,7 @@ std::string updatesLine(const Report& report) {
                          : fmt::format("  cell updates of each level, which takes its own time steps: {}\n", updates);
 }
 
-/// The cells of each level, and the cost of updating and regridding them.
+/// The number of cells of each level, and the cost of updating and regridding them.
 std::string levelsLine(const Report& report) {
   if (!isRefined(report)) return "";
   std::string cells;
@@ -203,7 +203,7 @@ std::string rebalancingLine(const Report& report) {
   if (change.times == 0) return "";
   return fmt::format(
       "  patches changed ranks {} time{}, last after step {}: this reduced the load of the busiest rank from {:.2f} to "
-      "{:.2f} times its share\n",
+      "{:.2f} times the mean load\n",
       change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
 }
 
@@ -298,7 +298,7 @@ std::string toJson(const Report& report) {
 
 namespace {
 
-/// In parentheses, the particles that a run has lost; empty if none.
+/// The numbers of particles that a run has lost, in parentheses; empty if there are none.
 std::string lossesOf(const Report& report) {
   std::string text;
   if (report.dropped > 0) text = fmt::format("{} left the grid", report.dropped);

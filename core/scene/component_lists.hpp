@@ -10,10 +10,11 @@
 
 namespace tushar::scene {
 
-/// The cell variables of a component by name, each with its materials, which are empty if it belongs to none.
+/// The cell variables of a component by name, each with a list of its materials, which is empty for a variable that
+/// belongs to no material.
 std::map<std::string, std::vector<std::string>> cellVariables(const simulation::Component& component);
 
-/// Whether the component makes particles.
+/// Whether the component has particles.
 bool hasParticles(const simulation::Component& component);
 
 /// Whether the component itself marks cells for refinement.

@@ -17,7 +17,7 @@ namespace {
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Memory of this process that is in use, MB.
+/// Resident memory of this process [MB].
 double residentMegabytes() {
   long total = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> total >> resident;
@@ -38,7 +38,7 @@ int rankInTheMiddle(const grid::Grid& grid) {
   return 0;
 }
 
-/// Plans and counts the messages of graphs.
+/// Counts the messages that the task graphs would send.
 class Messages {
  public:
   Messages(const grid::Grid& grid, const data::VariableTable& table) : grid_(grid), table_(table) {}

@@ -8,24 +8,27 @@
 
 namespace tushar::scene {
 
-/// The work of one of many ranks in a step, and the cost of this estimate: graph and messages are compiled as in a run,
-/// but without the other ranks and without memory for variables.
+/// An estimate of the work of one of many ranks in a step, and the cost of this estimate. Task graphs and messages are
+/// compiled as in a run, but the other ranks do not exist, and variables get no memory.
 struct DryRun {
   int rank = 0, ranks = 1;
-  int patches = 0, patchesOfAll = 0;  ///< of this rank, and of the grid
-  int tasks = 0, placements = 0;      ///< of a step: tasks kept, and their runs over patches and materials
-  int neighbours = 0;                 ///< ranks that it sends ghosts to
-  int messages = 0;                   ///< sent in a step, with ghosts and with particles that move
-  int agreements = 0;                 ///< of all ranks, in a step
-  bool isAdaptive = false;            ///< criteria change the grid during the run, and this is the initial grid
-  bool hasSmallerSteps = false;       ///< finer levels take several smaller steps, each with a ghost exchange
-  double bytes = 0;                   ///< upper bound, without particles: computed as if all nodes were near particles
-  double seconds = 0;                 ///< processor time to read the scene and compile
-  double megabytes = 0;               ///< memory taken by this
+  int patches = 0, patchesOfAll = 0;  ///< number of patches of this rank, and of the whole grid
+  /// In a step: number of tasks kept, and of their calls over patches and materials.
+  int tasks = 0, placements = 0;
+  int neighbours = 0;  ///< number of ranks to which it sends ghosts
+  int messages = 0;    ///< number of messages sent in a step, with ghosts and with migrating particles
+  int agreements = 0;  ///< number of collective operations of all ranks in a step
+  /// Whether criteria change the grid during the run; the numbers then describe the initial grid.
+  bool isAdaptive = false;
+  bool hasSmallerSteps = false;  ///< whether finer levels take several smaller steps, each with a ghost exchange
+  /// Upper bound on the memory of variables [bytes], without particles: computed as if all nodes were near particles.
+  double bytes = 0;
+  double seconds = 0;    ///< processor time spent reading the scene and compiling the graphs [s]
+  double megabytes = 0;  ///< memory used for this estimate [MB]
 };
 
-/// Reads a scene as if this rank were the one of `workers.ranks` that owns the centre of the grid. Throws what
-/// readScene throws.
+/// Reads a scene as if there were `workers.ranks` ranks and this rank owned the centre of the grid. Throws the
+/// exceptions of readScene.
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers);
 

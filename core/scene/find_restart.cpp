@@ -23,7 +23,7 @@ namespace {
   throw InputError({{{where.string(), 0, 0}, "", sentence}});
 }
 
-/// The folder at a path, which may be a link to it.
+/// The folder to which a path leads; the path may be a link.
 fs::path folderOf(const fs::path& uda) {
   if (!fs::exists(uda)) refuse(uda, "there is no such folder; --restart takes the .uda folder of a run");
   if (!fs::is_directory(uda))
@@ -40,7 +40,7 @@ fs::path folderOf(const fs::path& uda) {
   return folder;
 }
 
-/// The steps of checkpoints to try in order: only the chosen one, or those from LATEST backwards.
+/// The steps of checkpoints to try, in order: only the chosen step, or those from LATEST backwards.
 std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, std::optional<int> chosen) {
   const output::CheckpointStore store(archive, 1);
   const std::vector<int> steps = store.steps();

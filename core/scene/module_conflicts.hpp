@@ -13,14 +13,14 @@
 
 namespace tushar::scene {
 
-/// The quantities that earlier modules of the scene measure and compute.
+/// The quantities that earlier modules of the scene already measure and compute.
 struct TakenByModules {
   std::set<std::string> measured, computed;
 };
 
-/// Throws InputError for a module that measures or computes the same quantity as an earlier one; otherwise adds its
-/// quantities. A report has one place for the errors of a field, and for an energy budget; a variable has one task that
-/// computes it.
+/// Throws InputError for a module that measures or computes the same quantity as an earlier one; otherwise adds the
+/// quantities of this module to `taken`. A report has only one place for the errors of a field and one for an energy
+/// budget, and only one task may compute a variable.
 void refuseTwice(const simulation::Analysis& analysis, const input::Element& module, TakenByModules& taken);
 
 /// Reports files that would be written by two modules, or by a module and the archive itself.

@@ -65,7 +65,7 @@ const input::Schema<ComponentTag>& componentSchema() {
   return schema;
 }
 
-/// The section with that name; reports one that is missing or given twice.
+/// The section with this name; reports it if it is missing or given twice.
 std::optional<Element> section(const Element& root, const std::string& name, bool required, Diagnostics& diagnostics) {
   const std::vector<Element> all = root.children(name);
   if (all.empty()) {
@@ -124,8 +124,8 @@ struct ReadModule {
   MakeAnalysis make;
 };
 
-/// The modules of a scene. Where its component is not known, `loads` is false: then only their names are checked, as
-/// a library that is missing may take minutes to build.
+/// The modules of a scene. If its component is not known, `loads` is false: then only their names are checked, because
+/// building a missing library may take minutes.
 std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, bool loads,
                                     Diagnostics& diagnostics) {
   std::vector<ReadModule> modules;
@@ -167,7 +167,7 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
-/// Refuses intervals that the times of the run could not resolve.
+/// Refuses intervals that are too short for the times of the run to resolve.
 void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
                     Diagnostics& diagnostics) {
   if (const auto tag = section.child("outputInterval"))
@@ -177,7 +177,7 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
                   "attribute 'interval': ", diagnostics);
 }
 
-/// Refuses sampling intervals of analysis modules that the times of the run could not resolve.
+/// Refuses sampling intervals of analysis modules that are too short for the times of the run to resolve.
 void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& modules, Diagnostics& diagnostics) {
   for (const ReadModule& module : modules)
     if (const auto tag = module.element.child("outputInterval"))
@@ -190,8 +190,8 @@ Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
   return levels.size() > 1 ? levels[1] : *amr.tag;
 }
 
-/// Refuses several levels for a component that supports only one. The message does not list components that run on
-/// several, as their modules may not be built yet.
+/// Refuses several levels for a component that supports only one. The message does not list the components that support
+/// several levels, because their modules may not have been built yet.
 void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
                       Diagnostics& diagnostics) {
   if (!kind.takesLevels)
@@ -210,10 +210,10 @@ Location checkTakesLevels(const ComponentKind& kind, const Component& component,
   return where.where();
 }
 
-/// A component on a minimal grid that it accepts, with one axis if possible.
+/// A component constructed on a minimal grid that it accepts, with one axis if possible.
 struct Trial {
   std::unique_ptr<grid::Level> level;
-  std::unique_ptr<Component> component;  ///< null if it accepts no grid
+  std::unique_ptr<Component> component;  ///< null if no grid is accepted
 };
 Trial tryOut(const MakeComponent& make) {
   for (int axes = 1; axes <= 3; ++axes) {
@@ -230,9 +230,9 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
-/// Checks the labels even if other parts of the scene are invalid, since the labels of a component and its modules do
-/// not depend on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid
-/// that it uses.
+/// Checks the labels even if other parts of the scene are invalid, because the labels of a component and its modules do
+/// not depend on the grid. Returns false if the check is impossible: some components and modules cannot be constructed
+/// on the small grid that it uses.
 bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
                             std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   const auto [level, component] = tryOut(make);
@@ -265,7 +265,8 @@ AmrSettings amrOf(const Element& root, const ComponentKind* kind, Diagnostics& d
   return amr;
 }
 
-/// <Grid> for a component; for an unknown one, all that a grid may have.
+/// Reads `<Grid>` as the component of the scene accepts it; for an unknown component, accepts everything that any grid
+/// may contain.
 grid::Domain readGridFor(const ComponentKind* kind, const Element& section, const AmrSettings& amr,
                          const grid::Workers& workers, Diagnostics& diagnostics) {
   SideWords words{{}, true, true};
@@ -280,7 +281,7 @@ void takeThreads(const grid::Workers& workers, Problem& problem) {
   if (workers.mayBeFewer) problem.cellsPerThread = grid::cellsPerThread;
 }
 
-/// The tag by which finer levels take smaller steps; none on a single level.
+/// The tag that makes finer levels take smaller steps; none on a single level.
 std::optional<Location> smallerStepsOn(const grid::Grid& grid, const AmrSettings& amr, Diagnostics& diagnostics) {
   if (grid.levels() > 1 || !amr.smallerSteps) return amr.smallerSteps;
   diagnostics.note(*amr.smallerSteps, "AMR/useLockStep", "does nothing: the grid has one level");

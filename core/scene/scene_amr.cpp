@@ -21,7 +21,7 @@ using Indicator = simulation::Criterion::Indicator;
 
 namespace {
 
-/// The name of a criterion that is not a variable: cells with particles, of any material.
+/// The name of the criterion that refines cells with particles of any material; it is not the name of a variable.
 constexpr std::string_view cellsWithParticles = "particles";
 
 struct VariableTag {
@@ -60,7 +60,8 @@ struct AmrSection {
 bool isLower(Indicator indicator) { return indicator == Indicator::below; }
 bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
 
-/// The threshold for coarsening: half that for refining; for values, beyond it by half their magnitude.
+/// The default threshold for coarsening: half of the threshold for refining or, for indicators that are the value
+/// itself, beyond this threshold by half of its magnitude.
 double coarsenOf(const VariableTag& tag, double refine) {
   if (tag.coarsen) return *tag.coarsen;
   return isLower(tag.indicator) ? refine + 0.5 * std::abs(refine) : refine - 0.5 * std::abs(refine);
@@ -128,7 +129,7 @@ const Schema<VariableTag>& variableSchema() {
 const Schema<CriteriaSection>& criteriaSchema() {
   static const Schema<CriteriaSection> schema =
       Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
-                              "Where finer cells are needed; if there are several criteria, the one that requests the "
+                              "Criteria for finer cells; if there are several criteria, the one that requests the "
                               "finest cells prevails.")
           .list("Variable", &CriteriaSection::variables, variableSchema(), "a refinement criterion");
   return schema;
@@ -178,7 +179,7 @@ const Schema<RegridderSection>& regridderSchema() {
                   "whether the refinement follows the state; true by default if there is a <Variable> or, for mpm, if "
                   "<max_levels> is above 1. Without a <Variable>, euler refines at jumps of c.density, c.pressure and "
                   "c.mach above 0.02; mpm needs none, as the finest level follows its particles")
-        .value("regrid_once", &RegridderSection::once, false, "1", "refine only at the start")
+        .value("regrid_once", &RegridderSection::once, false, "1", "whether the grid is refined only at the start")
         .optional("max_levels", &RegridderSection::maxLevels, "1",
                   "largest number of levels, including the coarsest; by default the number that follows from the "
                   "Levels of Grid, but at least 2 if the grid is adaptive",
@@ -210,7 +211,7 @@ ThresholdsSection readThresholds(const Element& given, Diagnostics& diagnostics)
   return read;
 }
 
-/// The schema of `AMR` with the sections of components that have these names.
+/// The schema of `AMR` with the sections of the named components.
 Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
   Schema<AmrSection> section("AMR", "Adaptive mesh refinement: cells of several sizes.");
   const auto readComponents = [names](AmrSection& read, const Element& element, Diagnostics& diagnostics) {
@@ -247,8 +248,8 @@ const Schema<AmrSection>& amrSchema(const std::vector<std::string>& names) {
   return known != schemas.end() ? known->second : schemas.emplace(names, makeAmrSchema(names)).first->second;
 }
 
-/// The sections of `AMR` that belong to a component: those that it lists, and one with its own name, such as `MyFlow`
-/// for `my_flow`.
+/// The sections of `AMR` that belong to a component: those that it lists, and one with the component's own name, such
+/// as `MyFlow` for `my_flow`.
 std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
   std::vector<std::string> names = kind.amrSections;
   if (!kind.takesLevels) return names;
@@ -263,7 +264,7 @@ std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
   return names;
 }
 
-/// For an unknown component: every tag that does not belong to `AMR` itself.
+/// The sections of `AMR` for an unknown component: all tags that do not belong to `AMR` itself.
 std::vector<std::string> unknownTagsOf(const Element& amr) {
   std::vector<std::string> names;
   const std::vector<std::string> own = amrSchema({}).tagNames();
@@ -295,7 +296,7 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
             input::toText(*blocks)));
 }
 
-/// Checks that the material of a criterion has its variable; replaces a number by the name.
+/// Checks that the material of a criterion has its variable; replaces the index of a material by its name.
 void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
   std::string& given = criterion.material;
   if (given.empty()) return;

@@ -78,7 +78,7 @@ class BlockChoice {
                        "xyz"[axis]);
   }
 
-  /// Chooses the nearest size that can be used instead of the one that the scene requests.
+  /// Replaces the size that the scene requests by the nearest one that can be used.
   void takeNearestBlock(int axis, int cells, int size, const std::vector<int>& sizes) {
     const auto distance = [&](int a, int b) { return std::abs(a - size) < std::abs(b - size); };
     const int nearest = *std::min_element(sizes.begin(), sizes.end(), distance);

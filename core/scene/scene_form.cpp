@@ -21,10 +21,10 @@ using simulation::SectionForm;
 
 namespace {
 
-/// The structure for schemas of editors, which read nothing.
+/// An empty structure for schemas of editors, which read no values.
 struct Unread {};
 
-/// Schemas whose addresses stay valid.
+/// Schemas that keep their addresses.
 using Schemas = std::list<Schema<Unread>>;
 
 void addTag(Schema<Unread>& parent, const TagForm& form, const std::string& sentence) {
@@ -44,14 +44,14 @@ void addSection(Schema<Unread>& root, const std::string& tag, const SchemaBase& 
   addTag(root, form, schema.sentence());
 }
 
-/// A name as it is and in capitals, as Uintah accepts.
+/// The spellings of a name that Uintah accepts: as given, and in capitals.
 std::vector<std::string> spellings(const std::string& name) {
   std::string capitals = name;
   std::transform(name.begin(), name.end(), capitals.begin(), [](unsigned char c) { return std::toupper(c); });
   return {name, capitals};
 }
 
-/// <DataAnalysis> with all modules.
+/// The schema of `<DataAnalysis>` with all modules.
 const SchemaBase& analysisForm(const Catalogue& catalogue, Schemas& schemas) {
   std::vector<Alternative> modules;
   const auto kinds = catalogue.analyses();

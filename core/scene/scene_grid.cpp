@@ -23,7 +23,7 @@ struct GridSection {
   std::vector<LevelSection> levels;
 };
 
-/// <BoundaryConditions>, with the component's own sections.
+/// The schema of `<BoundaryConditions>` with the component's own sections.
 Schema<FacesSection> facesTag(const Schema<FaceSection>& face, const std::vector<simulation::SectionForm>& own) {
   Schema<FacesSection> tags("BoundaryConditions",
                             "The conditions at the sides of the grid; a side without conditions is free.");
@@ -39,7 +39,7 @@ Schema<FacesSection> facesTag(const Schema<FaceSection>& face, const std::vector
   return tags;
 }
 
-/// The tags of <Grid> around those of conditions, which must outlive it.
+/// The tags of `<Grid>` that contain the tags of conditions; the latter must outlive this object.
 struct GridTags {
   explicit GridTags(const Schema<ConditionSection>& condition, const std::vector<simulation::SectionForm>& own)
       : face(faceTag(condition)),
@@ -57,13 +57,13 @@ struct GridTags {
   Schema<GridSection> grid;
 };
 
-/// <Grid> as it is read, for components with these own sections.
+/// The schema of `<Grid>` as it is read, for components with these own sections of conditions.
 const Schema<GridSection>& gridSchema(const std::vector<simulation::SectionForm>& own = {}) {
   static std::map<std::vector<std::string>, GridTags> all;
   return all.try_emplace(namesOf(own), conditionSchema(), own).first->second.grid;
 }
 
-/// A Grid section with the labels and words of one component.
+/// A Grid section with the labels and words that one component accepts.
 struct GridFor {
   explicit GridFor(const simulation::ComponentKind& kind)
       : condition(conditionFor(kind.boundaryLabels, kind.conditionWords.vars)),
@@ -88,7 +88,7 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
                                   domain.resolution[0], domain.resolution[1], domain.resolution[2], cells, mostCells));
 }
 
-/// The domain of a grid of one level.
+/// Divides a grid of one level into patches.
 void cutIntoPatches(const GridBox& box, const grid::Workers& workers, const Element& element, grid::Domain& domain,
                     Diagnostics& diagnostics) {
   domain.mayRecut = !workers.layout;
@@ -105,7 +105,7 @@ void cutIntoPatches(const GridBox& box, const grid::Workers& workers, const Elem
                                     workers.layout ? " in --layout" : "", counted(domain.resolution[axis], "cell")));
 }
 
-/// The domain of a grid of several levels: boxes of blocks.
+/// Divides a grid of several levels into patches, which are boxes of blocks.
 void groupBlocks(const Element& section, const grid::Workers& workers, grid::Domain& domain, Diagnostics& diagnostics) {
   if (workers.layout) {
     grid::Refinement& refinement = domain.refinement;

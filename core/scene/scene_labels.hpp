@@ -8,8 +8,7 @@
 
 namespace tushar::scene {
 
-/// Reports problems with saved and sampled labels. Removes, with a note, labels that Uintah has and no task here
-/// computes.
+/// Reports problems with saved and sampled labels. Removes, with a note, labels of Uintah that no task computes.
 void checkLabels(const simulation::Component& component,
                  const std::vector<std::unique_ptr<simulation::Analysis>>& analyses,
                  std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);

@@ -47,7 +47,7 @@ const Schema<GridBox>& boxSchema() {
 const Schema<LevelSection>& levelSchema() {
   static const Schema<LevelSection> schema =
       Schema<LevelSection>(
-          "Level", "A grid of cells of one size; each further Level has boxes in which the grid is at least as fine.")
+          "Level", "A grid of cells of one size; in boxes of a further Level, cells are at most as wide as its own.")
           .list("Box", &LevelSection::boxes, boxSchema(),
                 "the box that is divided into cells; further Levels may have any number of boxes, each enlarged to "
                 "whole blocks (see AMR/Regridder/min_patch_size)",
@@ -81,10 +81,10 @@ Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element
 
 namespace {
 
-constexpr int mostLevels = 16;       ///< largest number of levels of a tree of blocks,
-constexpr int mostBlocks = 1 << 20;  ///< and of its finest blocks along an axis
+constexpr int mostLevels = 16;       ///< largest number of levels of a tree of blocks
+constexpr int mostBlocks = 1 << 20;  ///< largest number of blocks of the finest level along an axis
 
-/// Reads the Boxes of further Levels, and chooses their blocks.
+/// Reads the Box tags of further Level tags, and chooses blocks for them.
 class Refiner {
  public:
   Refiner(const Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr, grid::Domain& domain,
@@ -169,7 +169,7 @@ class Refiner {
     return diagnostics_.size() == before;
   }
 
-  /// The level with the cell width of a box: the number of halvings of that of the first Level.
+  /// The level that has the cell width of a box: the number of times that the cells of the first Level must be halved.
   std::optional<int> levelOf(const GridBox& box, const LevelSection& section, const Element& element) {
     const std::size_t before = diagnostics_.size();
     const Index3 cells = resolutionOf(box, section, element, diagnostics_);
@@ -219,7 +219,7 @@ class Refiner {
       }
   }
 
-  /// The number of levels of ratio 2 for `levels` levels with the ratios of the scene.
+  /// The number of levels with cell-width ratio 2 that `levels` levels with the ratios of the scene need.
   int levelsOfTwos(int levels) {
     if (!amr_.ratios || amr_.ratios->empty()) return levels;
     int twos = 1;
@@ -230,7 +230,7 @@ class Refiner {
     return twos;
   }
 
-  /// The largest number of levels in the run, from the scene.
+  /// The largest number of levels that the scene allows in the run.
   int countLevels() {
     const int given = finest_ + 1;
     const bool isAdaptive = amr_.regrid.adaptive;
@@ -284,7 +284,7 @@ class Refiner {
     }
   }
 
-  /// Boxes of one level may share cells, which is seldom meant.
+  /// Notes boxes of one level that share cells, which is seldom intended.
   void noteOverlaps() {
     for (std::size_t b = 0; b < boxes_.size(); ++b)
       for (std::size_t a = 0; a < b; ++a) {
@@ -313,8 +313,8 @@ class Refiner {
   grid::Level coarsest_;
   grid::Refinement& refinement_;
   Diagnostics& diagnostics_;
-  std::vector<Element> boxes_;  ///< tags of the regions
-  int finest_ = 0;              ///< the level of the finest Box
+  std::vector<Element> boxes_;  ///< tags of the refined regions
+  int finest_ = 0;              ///< level of the finest Box
 };
 
 }  // namespace

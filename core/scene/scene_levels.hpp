@@ -9,14 +9,14 @@
 
 namespace tushar::scene {
 
-/// Largest number of cells that an int can number.
+/// Largest number of cells that can be indexed by an int.
 inline constexpr double mostCells = 2147483647.0;
 
 /// The tag `Box`.
 struct GridBox {
   std::string label;
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();  ///< m
-  std::optional<Index3> resolution;                 ///< cells along x, y, z
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();  ///< lower and upper corner [m]
+  std::optional<Index3> resolution;                 ///< number of cells along x, y, z
   std::optional<Index3> patches;
   std::optional<int> autoPatch;
   Index3 extraCells{};
@@ -25,18 +25,18 @@ struct GridBox {
 /// The tag `Level`.
 struct LevelSection {
   std::vector<GridBox> boxes;
-  std::optional<Vec3> spacing;  ///< m
+  std::optional<Vec3> spacing;  ///< cell width [m]
   Index3 periodic{};
 };
 
 const input::Schema<LevelSection>& levelSchema();
 
-/// The cells of a box along x, y and z; `element` is its tag.
+/// The number of cells of a box along x, y and z; `element` is the tag of the box.
 Index3 resolutionOf(const GridBox& box, const LevelSection& level, const input::Element& element,
                     input::Diagnostics& diagnostics);
 
-/// Reads the refinement of a grid into `domain`, which already contains the first Level except its patches: `levels`
-/// are those of the section `grid`, the first among them.
+/// Reads the refinement of a grid into `domain`, which already contains the first Level except its patches. `levels`
+/// are all Levels of the section `grid`, including the first.
 void readRefinement(const input::Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr,
                     grid::Domain& domain, input::Diagnostics& diagnostics);
 

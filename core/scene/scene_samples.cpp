@@ -26,8 +26,8 @@ struct Known {
   simulation::OtherNames names;
   tasks::Names labels;
   std::set<std::string> foreign;
-  std::vector<std::string> materials;  ///< names of materials, by their indices in the scene
-  std::set<std::string> noted;         ///< names of materials that a note is about
+  std::vector<std::string> materials;  ///< names of materials, by index in the scene
+  std::set<std::string> noted;         ///< names of materials for which a note has been written
 
   Known(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
       : phases(component, analyses), names(otherNames(component, analyses)), labels(phases.saveable()) {
@@ -39,7 +39,7 @@ struct Known {
   }
 };
 
-/// The index of a material, given by name or index; -1, with an error, if there is none.
+/// The index of a material that is given by name or index; -1, with an error, if there is no such material.
 int numberOf(const std::string& word, const Known& known, std::string& problem) {
   const auto& all = known.materials;
   if (const auto named = std::find(all.begin(), all.end(), word); named != all.end())

@@ -15,7 +15,7 @@ using input::Element;
 
 namespace {
 
-/// A word for a side or a part of one, and its attributes.
+/// A word for a side or a part of a side, and its attributes.
 struct FaceWord {
   std::string name;
   std::optional<int> FaceSection::*face;
@@ -55,7 +55,7 @@ std::optional<Vec3> pointOf(const std::optional<std::string>& text, const Elemen
 
 std::string called(const FaceWord& word) { return word.name == "side" ? "whole side" : "part with " + word.name; }
 
-/// Whether a tag has exactly the attributes that belong to a word.
+/// Whether a tag has exactly the attributes that its word requires; reports errors otherwise.
 bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const auto& own = word.attributes;
@@ -76,7 +76,7 @@ bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diag
   return diagnostics.size() == before;
 }
 
-/// Whether the corners span an area.
+/// Whether two corners span an area; reports an error otherwise.
 bool spansArea(const Vec3& lower, const Vec3& upper, int across, const Element& tag, Diagnostics& diagnostics) {
   for (int axis = 0; axis < 3; ++axis)
     if (axis != across && upper[axis] < lower[axis]) {
@@ -87,7 +87,7 @@ bool spansArea(const Vec3& lower, const Vec3& upper, int across, const Element& 
   return true;
 }
 
-/// Whether one length is at most another; reports it otherwise.
+/// Whether one length is at most another; reports an error otherwise.
 bool areInOrder(double smaller, double larger, const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   if (smaller <= larger) return true;
   diagnostics.error(tag, fmt::format("{} is greater than {}: {:g} > {:g} m", word.attributes[1], word.attributes[2],
@@ -129,7 +129,8 @@ std::optional<grid::SidePart> squarePart(const FaceSection& face, const Element&
   return grid::SidePart::rectangulus(axis, {*innerLower, *innerUpper}, {*outerLower, *outerUpper});
 }
 
-/// Whether the points of a part are in its side. Uintah wants them there, to the last bit.
+/// Whether the points that define a part lie on its side; reports an error otherwise. As in Uintah, they must lie on it
+/// exactly, without a tolerance.
 bool liesInSide(const GivenPart& part, const grid::Domain& domain, Diagnostics& diagnostics) {
   const int axis = part.face / 2;
   const double at = part.face % 2 == 0 ? domain.lower[axis] : domain.upper[axis];
@@ -147,14 +148,14 @@ bool liesInSide(const GivenPart& part, const grid::Domain& domain, Diagnostics& 
   return diagnostics.size() == before;
 }
 
-/// The kernel axis of an axis, or -1 if the grid does not use it.
+/// The kernel axis that corresponds to an axis of the scene, or -1 if the grid does not use it.
 int kernelAxisOf(const grid::Level& level, int axis) {
   for (int d = 0; d < level.dimension(); ++d)
     if (level.axis(d) == axis) return d;
   return -1;
 }
 
-/// The centres of the faces at a side that belong to a part of it, m.
+/// The centres [m] of the cell faces on a side that belong to a part of it.
 template <int D>
 std::vector<Vec3> middlesOf(const grid::SidePart& shape, const grid::Level& level, int kernelAxis, int side) {
   grid::Box faces = level.cellsNear(shape.lower(), shape.upper());
@@ -173,7 +174,7 @@ std::vector<Vec3> middlesOf(const grid::SidePart& shape, const grid::Level& leve
   return middlesOf<3>(shape, level, kernelAxis, side);
 }
 
-/// Number of faces of a part, on a level. Refuses one that another part has, too.
+/// Number of cell faces in a part, on one level. Reports an error for a face that another part contains, too.
 std::size_t countFaces(const GivenPart& part, const std::vector<GivenPart>& all, const grid::Level& level,
                        Diagnostics& diagnostics) {
   const int d = kernelAxisOf(level, part.face / 2), side = part.face % 2;

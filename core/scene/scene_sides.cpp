@@ -18,7 +18,7 @@ namespace {
 
 const std::vector<std::string> conditionKinds(grid::boundaryKindNames.begin(), grid::boundaryKindNames.end());
 
-/// The kind with the name `var`, which is one of `conditionKinds`.
+/// The kind of condition named `var`, which must be in `conditionKinds`.
 grid::BoundaryKind kindOf(const std::string& var) {
   return static_cast<grid::BoundaryKind>(std::find(conditionKinds.begin(), conditionKinds.end(), var) -
                                          conditionKinds.begin());
@@ -42,14 +42,14 @@ Schema<ConditionSection> conditionTag() {
       .attributeValue("id", &ConditionSection::id, "all", "1", "index of the material to which it applies, or all");
 }
 
-/// The words that `var` may have: those of all components, and further ones.
+/// The values allowed for `var`: those of all components, and those given.
 std::vector<std::string> varsWith(const std::vector<std::string>& further) {
   std::vector<std::string> vars = conditionKinds;
   vars.insert(vars.end(), further.begin(), further.end());
   return vars;
 }
 
-/// Checks `var`, and the value that it may need.
+/// Checks `var` and, if it needs a value, the value.
 void checkKind(const ConditionSection& condition, const Element& element, const std::vector<std::string>& furtherVars,
                Diagnostics& diagnostics) {
   if (const std::string problem = input::choiceProblem(condition.var, varsWith(furtherVars)); !problem.empty())
@@ -58,7 +58,7 @@ void checkKind(const ConditionSection& condition, const Element& element, const 
     diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
 }
 
-/// A choice whose values are the words themselves.
+/// Choices in which each word stands for itself.
 input::Choices<std::string> wordsOf(const std::vector<std::string>& words) {
   input::Choices<std::string> choices;
   for (const std::string& word : words) choices.emplace_back(word, word);
@@ -103,7 +103,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
   for (const std::string_view name : sideNames) sides.emplace_back(name, static_cast<int>(sides.size()));
   const auto point = [](const char* what) { return std::string(what) + ", such as 0 0.5 0.5"; };
   return Schema<FaceSection>("Face", "A side of the grid, or a part of one.")
-      .optionalChoiceAttribute("side", &FaceSection::side, sides, "the whole of this side except its parts")
+      .optionalChoiceAttribute("side", &FaceSection::side, sides, "this whole side, except its parts")
       .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side inside a circle")
       .optionalChoiceAttribute("annulus", &FaceSection::annulus, sides, "the part between two circles")
       .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part inside an ellipse")
@@ -130,12 +130,12 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
       .optionalAttribute("outer_lower", &FaceSection::outerLower, "m", point("a corner of a rectangulus"))
       .optionalAttribute("outer_upper", &FaceSection::outerUpper, "m", point("the opposite corner"))
       .ignoredAttribute("name", "a note for readers")
-      .list("BCType", &FaceSection::conditions, condition, "the condition for a variable there");
+      .list("BCType", &FaceSection::conditions, condition, "the condition for a variable on this side or part");
 }
 
 namespace {
 
-/// Reads a value, which may be a formula if the component supports formulas.
+/// Reads a value; it may be a formula if the component supports formulas.
 template <class T, class Formula>
 std::string readValue(const std::string& text, bool mayVary, T& value, std::optional<Formula>& formula) {
   const auto plain = input::parse<T>(text);
@@ -191,10 +191,10 @@ bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryConditio
          (!label.isVector || (!condition.formula && condition.value[axis] == 0));
 }
 
-/// The places of the conditions of a face, by label and material.
+/// The locations of the conditions of a face, by label and material.
 using SeenConditions = std::map<std::string, std::map<std::string, Location>>;
 
-/// The place of an earlier condition for the same variable and some of the same materials.
+/// The location of an earlier condition for the same variable and at least one of the same materials.
 std::optional<Location> givenBefore(const ConditionSection& given, const Location& where, SeenConditions& seen) {
   auto& places = seen[given.label];
   for (const auto& [id, place] : places)
@@ -203,13 +203,14 @@ std::optional<Location> givenBefore(const ConditionSection& given, const Locatio
   return {};
 }
 
-/// The settings of a face.
+/// A face that is being read, and the list to which its conditions are added.
 struct ReadFace {
   const SideWords& words;
-  const Element& sides;                              ///< the section with all sides
-  int axis;                                          ///< axis across the face
-  std::vector<grid::BoundaryCondition>& conditions;  ///< conditions of this face, and of the same part read before
-  SeenConditions& seen;                              ///< the place of each condition
+  const Element& sides;  ///< the BoundaryConditions section
+  int axis;              ///< axis across the face
+  /// Conditions of this face, including those of the same part that have been read before.
+  std::vector<grid::BoundaryCondition>& conditions;
+  SeenConditions& seen;  ///< the location of each condition
 };
 
 void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace& face, Diagnostics& diagnostics) {
@@ -218,7 +219,7 @@ void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace&
         tag, fmt::format("{} already has a condition on this face, at {}; keep one", given.label, first->text()));
 }
 
-/// Adds the conditions that a component's own condition type stands for.
+/// Adds the conditions into which a component translates a condition of its own type.
 void readOwnCondition(const ConditionSection& given, const Element& tag, const ReadFace& face,
                       Diagnostics& diagnostics) {
   noteSeen(given, tag, face, diagnostics);
@@ -269,7 +270,7 @@ void readConditions(const FaceSection& given, const Element& tag, const ReadFace
     readCondition(conditions[k], tags[k], onPlane, face, diagnostics);
 }
 
-/// The part of a side with this shape; faces with the same shape share a part.
+/// Index of the part of a side with this shape; faces with the same shape share a part.
 std::size_t partWith(const grid::SidePart& shape, std::vector<grid::ConditionsOfPart>& parts) {
   const auto same = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.shape == shape; });
   if (same != parts.end()) return same - parts.begin();

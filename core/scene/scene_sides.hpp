@@ -20,14 +20,15 @@ struct ConditionSection {
   std::optional<std::string> value;
 };
 
-/// The tag `Face`: a side of the grid, as its place in sideNames, or a part of one. Points are as written.
+/// The tag `Face`: a side of the grid, given by its index in sideNames, or a part of a side. Points are stored as
+/// texts, as written in the scene.
 struct FaceSection {
   std::optional<int> side, circle, annulus, ellipse, rectangle, rectangulus;
   std::optional<double> radius, innerRadius, outerRadius, minorRadius, majorRadius, angle;
   std::optional<std::string> origin, lower, upper, innerLower, innerUpper, outerLower, outerUpper;
   std::vector<ConditionSection> conditions;
 
-  /// The side that the face is, or of which it is a part.
+  /// Index of the side that the tag describes, or to which its part belongs.
   int face() const {
     for (const auto& given : {side, circle, annulus, ellipse, rectangle, rectangulus})
       if (given) return *given;
@@ -41,32 +42,32 @@ struct FacesSection {
 };
 
 const input::Schema<ConditionSection>& conditionSchema();
-/// The conditions of a component, for the schemas of editors, with its labels and further `var`s.
+/// The schema of the conditions of a component, for editors, with its labels and further `var`s.
 input::Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels,
                                              const std::vector<std::string>& furtherVars);
-/// The tag `Face`, with a tag for conditions, which must outlive it.
+/// The schema of the tag `Face`, with a schema for its conditions, which must outlive it.
 input::Schema<FaceSection> faceTag(const input::Schema<ConditionSection>& condition);
 
-/// A part of a side, and its place in the scene.
+/// A part of a side, and its location in the scene.
 struct GivenPart {
   input::Element tag;
-  int face = 0;          ///< the side, 0 to 5
+  int face = 0;          ///< index of the side, 0 to 5
   std::size_t part = 0;  ///< index of the part on this side
 };
 
-/// Whether a face is one side or one part of a side, with the right attributes.
+/// Whether a tag `Face` describes one side or one part of a side with the right attributes; reports an error if not.
 bool checkFaceWords(const input::Element& tag, input::Diagnostics& diagnostics);
-/// The shape of a face that is a part of a side; none, with an error, if its numbers are invalid.
+/// The shape of a face that is a part of a side; none, with an error, if its values are invalid.
 std::optional<grid::SidePart> readShape(const FaceSection& face, const input::Element& tag,
                                         input::Diagnostics& diagnostics);
-/// Refuses parts of sides for components that do not support them.
+/// Reports an error for parts of sides if the component does not support them.
 void refuseParts(const input::Element& tag, input::Diagnostics& diagnostics);
-/// The conditions of a `Grid` section. Returns the parts of sides that have some.
+/// Reads the conditions of a `Grid` section. Returns the parts of sides that have conditions.
 std::vector<GivenPart> readFaces(const input::Element& section, const FacesSection& faces, const SideWords& words,
                                  grid::BoundaryConditions& boundaries, input::Diagnostics& diagnostics);
 /// Reports conditions at sides of periodic axes, which have no effect, as in Uintah.
 void checkPeriodic(const input::Element& section, const grid::Domain& domain, input::Diagnostics& diagnostics);
-/// Checks that parts of sides lie in their sides, do not overlap, and contain faces.
+/// Checks that parts of sides lie on their sides, do not overlap, and contain faces of cells.
 void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::scene

@@ -44,15 +44,15 @@ const Schema<TimeSettings>& timeSchema() {
           .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
                  "largest relative growth of the time step from one step to the next; 0 or less means no limit")
           .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
-                 "factor on the time step that the physics allows", input::positive())
+                 "factor by which the stable time step is multiplied", input::positive())
           .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
                  "number of steps after which the run ends", input::positive())
           .value("max_wall_time", &TimeSettings::maxWallTime, unlimited, "s",
                  "wall time after which the run writes its output and ends", input::positive())
           .value("end_at_max_time_exactly", &TimeSettings::endAtMaxTimeExactly, false, "1",
-                 "shorten the last step so that it ends at maxTime")
+                 "whether the last step is shortened so that it ends at maxTime")
           .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
-                 "shorten steps so that outputs are at multiples of outputInterval")
+                 "whether steps are shortened so that outputs are at multiples of outputInterval")
           .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
                  "if a value becomes unphysical, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
@@ -73,7 +73,7 @@ const Schema<SaveRequest>& saveSchema() {
   static const Schema<SaveRequest> schema =
       Schema<SaveRequest>("save", "A variable to be saved.")
           .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
-          .attributeValue("material", &SaveRequest::material, "", "1", "save it for this material only")
+          .attributeValue("material", &SaveRequest::material, "", "1", "save the variable for this material only")
           .ignoredAttribute("levels", "all levels are saved")
           .ignoredAttribute("compression", "<compression> in <DataArchiver> applies to all variables")
           .ignoredAttribute("table_lookup", "belongs to components that read tables")
@@ -86,12 +86,12 @@ const Schema<SaveRequest>& saveSchema() {
   return schema;
 }
 
-/// Whether `one` requests all that `other` requests.
+/// Whether `one` requests everything that `other` requests.
 bool covers(const SaveRequest& one, const SaveRequest& other) {
   return one.label == other.label && (one.material.empty() || one.material == other.material);
 }
 
-/// Removes save requests that another one includes.
+/// Removes save requests that are included in another one.
 void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>& tags, Diagnostics& diagnostics) {
   if (saves.size() != tags.size()) return;
   std::vector<SaveRequest> kept;
@@ -128,9 +128,9 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   using Settings = CheckpointSettings;
   static const Schema<Settings> schema =
       Schema<Settings>("checkpoint",
-                       "The whole state, from which sus --restart continues: at the start, at one of these "
-                       "intervals, and at the end.")
-          .attributeValue("cycle", &Settings::cycle, 2, "1", "how many checkpoints are kept", input::atLeast(1))
+                       "The whole state, from which sus --restart continues. It is saved at the start, at one of "
+                       "these intervals, and at the end.")
+          .attributeValue("cycle", &Settings::cycle, 2, "1", "number of checkpoints to keep", input::atLeast(1))
           .optionalAttribute("interval", &Settings::interval, "s", "simulated time between checkpoints",
                              input::positive())
           .optionalAttribute("timestepInterval", &Settings::timestepInterval, "1",
@@ -148,7 +148,7 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   return schema;
 }
 
-/// Reads the compression: a level, or a word of Uintah's.
+/// Reads the compression of the archive: a level, or one of Uintah's words.
 void readCompression(ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("compression");
   if (!given) return;
@@ -164,7 +164,7 @@ void readCompression(ArchiveSettings& archive, const Element& element, Diagnosti
     archive.compression = *level.value;
 }
 
-/// The name of the folder; of an absolute path, which some of Uintah's scenes contain, only the last part.
+/// The name of the folder; if an absolute path is given, as in some of Uintah's scenes, only its last part.
 std::string nameOf(const std::string& filebase) {
   return filebase.starts_with('/') ? std::filesystem::path(filebase).filename().string() : filebase;
 }
@@ -178,15 +178,17 @@ const Schema<ArchiveSettings>& archiveSchema() {
                  input::nonNegative())
           .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1", "steps between outputs",
                  input::nonNegative())
-          .flag("outputInitTimestep", &ArchiveSettings::outputInitTimestep, "also save the state at the start")
-          .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "also save the state at the end")
-          .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, "save with 7 digits")
+          .flag("outputInitTimestep", &ArchiveSettings::outputInitTimestep,
+                "whether to save the state at the start, too")
+          .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "whether to save the state at the end, too")
+          .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat,
+                "whether to save real numbers with 7 digits only")
           .custom("compression", readCompression, {"compression"},
                   "gzip level, from 0 (none, the default) to 9; gzip means 1; none, rle and tryall mean 0")
           .forms({input::patternForm({"compression"}, R"(.*gzip.*|none|rle|tryall|\+?0*[0-9](\.0*)?)")})
-          .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
+          .ignoredAttribute("type", "there is only one kind of archive: HDF5 with an index for ParaView")
           .ignored("save_crack_geometry", "there are no cracks")
-          .ignored("PIDX", "there is one kind of archive: HDF5 with an index for ParaView")
+          .ignored("PIDX", "there is only one kind of archive: HDF5 with an index for ParaView")
           .list("save", &ArchiveSettings::saves, saveSchema(), "a variable to be saved")
           .section("checkpoint", &ArchiveSettings::checkpoint, checkpointSchema())
           .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {

@@ -10,7 +10,7 @@
 
 namespace tushar::simulation {
 
-/// A component of as many dimensions as the grid has axes.
+/// Constructs a component with as many dimensions as the grid has axes in use.
 template <template <int> class C, class... Arguments>
 std::unique_ptr<Component> makeByDimension(const grid::Level& level, const Arguments&... arguments) {
   if (level.dimension() == 1) return std::make_unique<C<1>>(arguments...);
@@ -18,7 +18,8 @@ std::unique_ptr<Component> makeByDimension(const grid::Level& level, const Argum
   return std::make_unique<C<3>>(arguments...);
 }
 
-/// Reads the section of a schema from the root of a scene; reports one that is missing or given twice.
+/// Reads the section that `schema` describes from the scene with the tag `root`; reports an error if the section is
+/// missing or given twice.
 template <class S>
 S readSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
   const auto sections = root.children(schema.name());
@@ -32,7 +33,7 @@ S readSection(const input::Element& root, const input::Schema<S>& schema, input:
   return schema.read(sections.front(), diagnostics);
 }
 
-/// Like readSection, but a missing section has its defaults.
+/// Like readSection, but returns the defaults if the section is missing.
 template <class S>
 S readOptionalSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
   return root.child(schema.name()) ? readSection(root, schema, diagnostics) : schema.defaults();

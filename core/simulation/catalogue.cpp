@@ -8,7 +8,7 @@ namespace tushar::simulation {
 
 namespace {
 
-/// Adds an entry; its name must not exist yet.
+/// Adds an entry; its name must not be in use yet.
 template <class Entries, class Value>
 void insert(Entries& entries, const std::string& name, const Value& value) {
   if (!entries.emplace(name, value).second) throw std::invalid_argument(fmt::format("the name '{}' is taken", name));
@@ -42,7 +42,7 @@ void Catalogue::addModule(const Module& module, std::function<Catalogue()> load)
 std::vector<std::string> Catalogue::componentNames() const { return keysOf(components_); }
 std::vector<std::string> Catalogue::analysisNames() const { return keysOf(analyses_); }
 
-/// Fills the entries reserved for a module with its contents.
+/// Replaces the placeholders of a module by its actual contents.
 void Catalogue::take(const LoadModule& load) const {
   const Catalogue brought = load();
   for (const ComponentKind* kind : brought.components()) components_.insert_or_assign(kind->name, *kind);

@@ -6,7 +6,7 @@ namespace tushar::simulation {
 
 namespace {
 
-/// A time in seconds, given in seconds or in hours; infinity if it is not given.
+/// Converts a time that is given in seconds or in hours to [s]; infinity if it is not given.
 double seconds(const std::optional<double>& given, const std::optional<double>& hours) {
   constexpr double hour = 3600;
   return given ? *given : hours ? *hours * hour : std::numeric_limits<double>::infinity();

@@ -24,7 +24,7 @@ void writeGrid(output::Hdf5File& file, const output::GridInfo& grid) {
   file.attribute("/grid", "dimension", grid.dimension);
 }
 
-/// Writes which blocks are refined, if there are several levels.
+/// Writes the tree of refined blocks, if there are several levels.
 void writeTree(output::Hdf5File& file, const grid::Grid& grid) {
   if (grid.levels() == 1) return;
   file.attribute("/grid", "levels", grid.levels());
@@ -33,7 +33,7 @@ void writeTree(output::Hdf5File& file, const grid::Grid& grid) {
   file.dataset("/grid/leaves", {"leaves", "1", "blocks that are not refined", 1, keys}, {keys.size()});
 }
 
-/// Reads which blocks were refined.
+/// Reads the tree of refined blocks.
 void readTree(const output::Hdf5Input& file, RunState& run) {
   grid::Grid& grid = *run.problem.grid;
   const bool isRefined = file.has("/grid/leaves");
@@ -83,7 +83,7 @@ std::string padded(std::string text) {
 
 collect::StateNames stateNames(const RunState& run) { return {run.phases.lasting(), run.phases.materials()}; }
 
-/// Writes everything except the state.
+/// Writes everything except the values of variables.
 void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTarget& target) {
   file.attribute("/", "format", format);
   file.attribute("/", "step", run.time.step());
@@ -119,7 +119,7 @@ std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTar
 
 namespace {
 
-/// Checkpoints of older versions have no removed particles.
+/// The numbers of lost particles. Checkpoints of older versions do not contain removed particles.
 tasks::LostParticles lostIn(const output::Hdf5Input& file) {
   return {.left = static_cast<long>(file.count("/", "dropped")),
           .removed = file.has("/removed") ? std::stol(file.text("/removed")) : 0};

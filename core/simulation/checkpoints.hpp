@@ -19,23 +19,23 @@ class Checkpoints {
 
   /// Sets a function that is called on rank 0 with messages about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
-  /// Reads the checkpoint from which the run continues; if it is damaged, the previous one. Throws InputError where
-  /// there is none, or for one that does not fit the scene.
+  /// Reads the checkpoint from which the run continues or, if it is damaged, the previous one. Throws InputError if
+  /// there is no checkpoint, or if it does not match the scene.
   void resume();
   /// Writes a checkpoint at the start, if the scene has checkpoints.
   void writeFirst();
-  /// Writes a checkpoint at the end, if the scene has checkpoints, or the run has an archive and was cut short.
+  /// Writes a checkpoint at the end, if the scene has checkpoints, or if the run has an archive and was cut short.
   void writeLast();
-  /// Whether a checkpoint is due after the last step.
+  /// Whether a checkpoint is due after the step that has just ended.
   bool isDue() const;
   /// Writes a checkpoint, unless this step has one. Of several within seconds only the first waits for the disk.
   void write();
   /// Waits until the last checkpoint is on the disk.
   void settle();
 
-  /// Wall time spent writing, s.
+  /// Wall time spent writing [s].
   double seconds() const { return seconds_; }
-  /// The increase of this rank's peak memory by writing, bytes.
+  /// Increase of this rank's peak memory caused by writing [bytes].
   double memory() const { return memory_; }
 
  private:

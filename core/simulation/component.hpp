@@ -8,47 +8,49 @@
 
 namespace tushar::simulation {
 
-/// A physics code: it declares tasks, which the framework runs.
+/// A simulation method for some physics: it declares tasks, and the framework runs them.
 ///
-/// A component does not change after construction: all that changes lives in the warehouse, so restart and threads are
-/// right by construction. Construct it from a checked scene; it keeps a copy of everything that it needs later.
+/// A component does not change after construction: all that changes is in the warehouse. Therefore restarts and threads
+/// need no special care. A component is constructed from a checked scene, and keeps a copy of everything that it needs
+/// later.
 class Component {
  public:
   virtual ~Component() = default;
 
-  /// The state at the start of a run: `computes` and `newParticles` tasks.
+  /// Adds the tasks that create the state at the start of a run: `computes` and `newParticles`.
   virtual void scheduleInitialize(tasks::TaskList& tasks) const = 0;
-  /// Limits `delT` for the next step, from the old state. A method that is stable with any step adds no task: then
-  /// `Time` alone limits the steps.
+  /// Adds tasks that limit `delT` for the next step, from the old state. A method that is stable with any step adds no
+  /// task: then `Time` alone limits the steps.
   virtual void scheduleComputeStableTimeStep(tasks::TaskList&) const {}
-  /// One step, from the old state to a new one.
+  /// Adds the tasks of one step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
-  /// Advice for a user if a value violates its bound; continues `try `.
+  /// Advice for the user when a value violates its bound; continues a sentence after the word `try`.
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
-  /// Whether a step with an invalid value is repeated with half the time step even if the scene does not request it.
+  /// Whether a step with an invalid value is repeated with half the time step even if the scene does not request this.
   virtual bool mayRepeatStep() const { return false; }
-  /// Variables that Uintah's component of this kind computes, even if this one does not.
+  /// Names of variables that Uintah's component of this kind computes, even if this component does not.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
-  /// Variables with another name in Uintah's component of this kind.
+  /// Pairs of names, Uintah's and Tushar's, for variables that have another name in Uintah.
   virtual OtherNames otherNames() const { return {}; }
-  /// Notes on parts of the scene that have no effect on its grid.
+  /// Notes on parts of the scene that have no effect on the grid in use.
   virtual std::vector<InputProblem> notes() const { return {}; }
-  /// The names of the gases, if their variables belong to no material. In the scene they are the last materials, in
-  /// this order.
+  /// The names of the gases, if their variables do not belong to materials. In the scene they are the last materials,
+  /// in this order.
   virtual std::vector<std::string> gasNames() const { return {}; }
-  /// Why it cannot run on several levels, although its kind can; empty if it can. Continues `needs a grid of one level:
-  /// `.
+  /// The reason why this component cannot run on several levels in this scene, although its kind can; empty if it can.
+  /// Messages put `needs a grid of one level:` in front of it.
   virtual std::string whyOneLevel() const { return ""; }
-  /// Criteria for finer cells, for scenes that refine the grid without criteria.
+  /// Criteria for refinement, used if the scene refines the grid without giving criteria.
   virtual std::vector<Criterion> criteria() const { return {}; }
-  /// Tasks that mark cells where finer cells are needed, from the old state and diagnostics: `perPatch` tasks with
-  /// `marks()`. They run beside the criteria of the scene before each regridding of an adaptive grid.
+  /// Adds tasks that mark cells to be refined, from the old state and diagnostics: `perPatch` tasks with `marks()`.
+  /// They run in addition to the criteria of the scene, before each regridding of an adaptive grid.
   virtual void scheduleErrorEstimate(tasks::TaskList&) const {}
-  /// Tasks that change the interpolated values of cells that regridding has refined: they modify cell variables on all
-  /// patches; `newCells()` are the cells of the patch that were coarser before. At the start of a run cells of all
-  /// levels are initialised instead.
+  /// Adds tasks that correct the interpolated values of newly refined cells: they modify cell variables on all patches;
+  /// `newCells()` are the cells of the patch that were coarser before. At the start of a run, cells of all levels are
+  /// initialised instead.
   virtual void scheduleRefine(tasks::TaskList&) const {}
-  /// Diagnostics of the old state: totals, derived fields. Only those that are needed run.
+  /// Adds tasks that compute diagnostics of the old state: totals, derived fields. Tasks whose results are not needed
+  /// are omitted.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
 };
 

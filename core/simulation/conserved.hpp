@@ -11,12 +11,12 @@ namespace tushar::simulation {
 /// Quantities that a method may conserve; the report shows the drift of their totals.
 enum class Conserved { mass, momentum, energy };
 
-/// A conserved quantity, and the reduction with its total.
+/// A conserved quantity, and the reduction that computes its total.
 struct ConservedTotal {
   Conserved quantity;
   std::string label;
 
-  /// The name in reports and checkpoints.
+  /// The name of the quantity in reports and checkpoints.
   std::string name() const { return std::array{"mass", "momentum", "energy"}[static_cast<std::size_t>(quantity)]; }
 };
 

@@ -9,7 +9,7 @@
 
 namespace tushar::simulation {
 
-/// The values of reductions before a step that may fail, since a step overwrites the only value of each.
+/// Copies of the values of reductions, made before a step that overwrites the originals and may fail.
 class KeptReductions {
  public:
   KeptReductions(data::Warehouse& warehouse, const std::vector<int>& numbers) : warehouse_(&warehouse) {
@@ -18,7 +18,7 @@ class KeptReductions {
       kept_.emplace_back(number, std::vector<std::byte>(bytes.begin(), bytes.end()));
     }
   }
-  /// Restores these values; reductions that had none start empty.
+  /// Restores these values; reductions that had no value become empty.
   void restore() const {
     for (const auto& [number, bytes] : kept_)
       bytes.empty() ? warehouse_->resetReduction(number) : warehouse_->restoreReduction(number, bytes);
@@ -26,7 +26,7 @@ class KeptReductions {
 
  private:
   data::Warehouse* warehouse_;
-  std::vector<std::pair<int, std::vector<std::byte>>> kept_;  ///< number and bytes
+  std::vector<std::pair<int, std::vector<std::byte>>> kept_;  ///< index and bytes of each reduction
 };
 
 }  // namespace tushar::simulation

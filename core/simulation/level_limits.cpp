@@ -11,7 +11,7 @@ namespace {
 
 using data::Centring;
 
-/// Why blocks are too small for the ghosts of an access; empty if they are not.
+/// The reason why blocks are too small for the ghosts of an access; empty if they are not.
 std::string blockProblem(const tasks::Task& task, const tasks::Access& access, const grid::Grid& grid) {
   const int fewest = tasks::fewestCellsOfBlock(access.ghost);
   for (int d = 0; d < grid.dimension(); ++d)
@@ -35,7 +35,7 @@ std::string accessProblem(const tasks::Task& task, const tasks::Access& access, 
   return "";
 }
 
-/// Why an access does not allow smaller steps on finer levels; empty if it does.
+/// The reason why an access does not allow smaller steps on finer levels; empty if it does.
 std::string accessAgainstSmallerSteps(const tasks::Access& access) {
   const std::string_view name = access.label->name;
   switch (access.label->centring) {

@@ -7,55 +7,55 @@
 
 namespace tushar::simulation {
 
-/// The steps of a run in which finer levels take smaller ones.
+/// Performs the steps of a run in which finer levels take smaller steps.
 ///
-/// A level makes its step from the old state, then the next finer level makes steps up to the end of it: two in
-/// general, one if that is stable there, three or more where signals have become faster meanwhile. Its ghosts in
-/// coarser cells are between the old and the new values of these. Then the flux out of coarse cells becomes what the
-/// finer steps have taken, and the new state of the coarser level becomes its old one. Between such steps of the
-/// coarsest level all levels are at the same time.
-/// Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64; the number of finer steps is ours.
+/// A level makes its step from the old state. Then the next finer level makes steps up to the same time: two in
+/// general, one if that is stable, three or more if signals have become faster meanwhile. Its ghosts in coarser cells
+/// are interpolated between the old and the new values of these cells. Then the flux out of coarse cells is replaced by
+/// the sum of the finer steps' fluxes, and the new state of the coarser level becomes its old one. After each step of
+/// the coarsest level, all levels are at the same time. Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989)
+/// 64; the number of finer steps is our own choice.
 ///
 /// All ranks make the same calls.
 class LevelSteps {
  public:
   explicit LevelSteps(RunState& run) : run_(run) {}
 
-  /// The longest step of the coarsest level [s] for which two steps of each level per step of the next coarser one are
-  /// stable, and the limit that determines it.
+  /// The longest step of the coarsest level [s] such that each finer level is stable with two steps per step of the
+  /// next coarser level, and the limit that determines this step.
   data::Minimum stable();
-  /// Advances the old state of all levels by the step of the coarsest, `whole.delT`; the new state has stable steps. If
-  /// a task requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out, the old
-  /// state is as it was.
+  /// Advances the old state of all levels by the step of the coarsest level, `whole.delT`; the new state then has
+  /// stable time steps. If a task requests a smaller step, returns its factor and reason; in this case, and if a
+  /// NumericalError is thrown, the old state is restored.
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
 
-  /// Steps of each level in the last step of the coarsest; 0 for those that have no cells.
+  /// Number of steps of each level in the latest step of the coarsest level; 0 for levels without cells.
   const std::vector<int>& steps() const { return steps_; }
 
  private:
   /// Makes a step of a level, and the steps of finer levels within it.
   std::optional<data::Minimum> advanceLevel(const tasks::StepInfo& at);
   std::optional<data::Minimum> advanceFiner(const tasks::StepInfo& coarser);
-  /// Computes the stable step for the state of a level, unless it is known.
+  /// Computes the stable step for the state of a level, unless it is already known.
   std::optional<data::Minimum> findStable(const tasks::StepInfo& at);
   std::optional<data::Minimum> findStableOfAll(tasks::StepInfo at);
-  /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far below the rest of
-  /// the coarser one.
+  /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far shorter than
+  /// `rest` [s], the remaining time of the coarser step.
   double longestStep(double rest, const tasks::StepInfo& next) const;
   int levelsWithCells() const;
   int number(const data::Label& label) { return run_.table.number(label, -1); }
 
   RunState& run_;
-  std::optional<grid::BlockTree> tree_;               ///< of the state that `stable_` is of
-  int levels_ = 1;                                    ///< that have cells
-  std::vector<std::optional<data::Minimum>> stable_;  ///< by level, s: for its current state, if known
+  std::optional<grid::BlockTree> tree_;               ///< tree of blocks for which `stable_` was computed
+  int levels_ = 1;                                    ///< number of levels that have cells
+  std::vector<std::optional<data::Minimum>> stable_;  ///< stable step of each level [s] for its current state, if known
   std::vector<int> steps_;
 };
 
-/// The number of equal steps that fill `rest` [s] if `stable` [s] is the longest step: for a rest that begins with the
-/// coarser step (`isFirst`), one if it is stable, and two if they are at most an eighth longer than stable; for a later
-/// rest, also one if it is at most an eighth longer, because signals may have become faster since the coarser step was
-/// chosen.
+/// The number of equal steps that fill `rest` [s], the remaining time of a coarser step, if `stable` [s] is the longest
+/// stable step. Steps may be up to an eighth longer than `stable`, because signals may have become faster since the
+/// coarser step was chosen. If `isFirst`, the rest is the whole coarser step; a single step that fills it must not be
+/// longer than `stable`.
 int stepsThatFill(double rest, double stable, bool isFirst);
 
 }  // namespace tushar::simulation

@@ -23,17 +23,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The modules of this program that openModules() has found.
+/// The modules of this program that were found by openModules().
 struct OwnModules {
   fs::path folder;
-  std::map<std::string, Catalogue> loaded;  ///< the contents of each
+  std::map<std::string, Catalogue> loaded;  ///< the contents of each loaded module
 };
 OwnModules& ownModules() {
   static OwnModules modules;
   return modules;
 }
 
-/// Why a file cannot be a shared library; empty if it may be one, or if it cannot be read, which dlopen then reports.
+/// The reason why a file cannot be a shared library. Empty if it may be one, or if it cannot be read; in this case
+/// dlopen reports the error.
 std::string whyNoLibrary(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return "";
@@ -45,13 +46,14 @@ std::string whyNoLibrary(const fs::path& file) {
   return !in || fs::file_size(file) < end ? "the file is truncated" : "";
 }
 
-/// Opens a shared library and returns its card. Throws std::runtime_error if it is no module, or does not fit.
+/// Opens a shared library and returns its card. Throws std::runtime_error if it is not a module or is incompatible.
 const ModuleCard& open(const fs::path& file) {
   if (const std::string why = whyNoLibrary(file); !why.empty())
     throw std::runtime_error(fmt::format("{} is not a module of Tushar: {}", file.string(), why));
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const std::string problem = handle ? "" : dlerror();
-  // A module for another version may call what is not there; its card is read all the same.
+  // A module for another version may call functions that do not exist here; lazy binding lets its card be read
+  // nevertheless.
   if (!handle) handle = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   const auto* card = handle ? static_cast<const ModuleCard*>(dlsym(handle, "tusharModule")) : nullptr;
   if (handle && !card)
@@ -64,7 +66,7 @@ const ModuleCard& open(const fs::path& file) {
   return *card;
 }
 
-/// The contents of a module of this program, which is loaded if necessary.
+/// The contents of one of this program's modules, which is loaded if necessary.
 const Catalogue& loadOwn(const std::string& name) {
   std::map<std::string, Catalogue>& loaded = ownModules().loaded;
   if (const auto found = loaded.find(name); found != loaded.end()) return found->second;
@@ -76,7 +78,7 @@ const Catalogue& loadOwn(const std::string& name) {
   return loaded.emplace(name, open(file).kinds()).first->second;
 }
 
-/// Reads lines such as `heat component heat`: a module, and a component or analysis in it.
+/// Reads lines such as `heat component heat`: name of a module, kind of entry, name of the entry.
 void addOwnModules(Catalogue& catalogue) {
   std::ifstream index(ownModules().folder / "index.txt");
   if (!index) throw std::runtime_error(fmt::format("{}: cannot be read", (ownModules().folder / "index.txt").string()));
@@ -92,7 +94,7 @@ void addOwnModules(Catalogue& catalogue) {
   for (const auto& [name, module] : modules) catalogue.addModule(module, [name = name] { return loadOwn(name); });
 }
 
-/// The shared libraries in the folders of TUSHAR_PLUGINS, in the order of their names.
+/// The shared libraries in the folders of TUSHAR_PLUGINS, sorted by name.
 std::vector<std::string> filesOfUser() {
   std::vector<std::string> files;
   const char* const folders = std::getenv("TUSHAR_PLUGINS");

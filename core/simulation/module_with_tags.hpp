@@ -11,8 +11,8 @@
 
 namespace tushar::simulation {
 
-/// The module `name` with its own tags, which `schema` reads; the schema must outlive the module. It is made by
-/// `make(settings, its tag, component, grid)`.
+/// Describes the analysis module `name` with its own tags, which `schema` reads; the schema must outlive the module.
+/// `make(settings, tag of the module, component, grid)` constructs it.
 template <class Settings, class Make>
 AnalysisKind moduleMadeBy(std::string name, std::string sentence, const input::Schema<Settings>& schema, Make make) {
   const auto read = [&schema, make](const input::Element& module, input::Diagnostics& diagnostics) -> MakeAnalysis {
@@ -24,7 +24,8 @@ AnalysisKind moduleMadeBy(std::string name, std::string sentence, const input::S
           [&schema] { return &schema; }};
 }
 
-/// The same for a type A that is constructed from the settings and, optionally, the component and the grid.
+/// Like the function above, for a type A that is constructed from the settings and, optionally, the component and the
+/// grid.
 template <class A, class Settings>
 AnalysisKind moduleWithTags(std::string name, std::string sentence, const input::Schema<Settings>& schema) {
   const auto make = [](const Settings& settings, const input::Element&, [[maybe_unused]] const Component& component,
@@ -39,7 +40,7 @@ AnalysisKind moduleWithTags(std::string name, std::string sentence, const input:
   return moduleMadeBy(std::move(name), std::move(sentence), schema, make);
 }
 
-/// A module of as many dimensions as the grid has axes.
+/// Constructs a module with as many dimensions as the grid has axes in use.
 template <template <int> class A, class... Arguments>
 std::unique_ptr<Analysis> analysisByDimension(const grid::Level& level, const Arguments&... arguments) {
   if (level.dimension() == 1) return std::make_unique<A<1>>(arguments...);

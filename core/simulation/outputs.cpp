@@ -168,8 +168,8 @@ void Outputs::save() {
   seconds_ += secondsSince(started);
 }
 
-/// The average share of an output per rank, or an amount that is small compared with a state. Nothing for a small
-/// output: waking a thread would take as long as writing it.
+/// Largest size of outputs in progress on a writer: the average share of a rank, or an amount that is small compared
+/// with a state. 0 for a small output, because waking a thread would take as long as writing it.
 std::size_t Outputs::mostBehind(std::uint64_t bytes) const {
   constexpr std::uint64_t small = std::uint64_t{1} << 20, little = std::uint64_t{16} << 20;
   if (bytes <= small) return 0;

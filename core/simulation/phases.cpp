@@ -34,7 +34,7 @@ Names united(Names a, const Names& b) {
   return a;
 }
 
-/// The totals of conserved quantities, among those that are diagnosed.
+/// The totals of conserved quantities among the diagnosed variables.
 std::vector<ConservedTotal> totalsAmong(const Names& diagnosed) {
   std::vector<ConservedTotal> totals;
   for (const auto& [quantity, label] : {std::pair{Conserved::mass, total::mass.name},
@@ -44,7 +44,7 @@ std::vector<ConservedTotal> totalsAmong(const Names& diagnosed) {
   return totals;
 }
 
-/// The reductions that analyses give to the report.
+/// The reductions that analysis modules contribute to the report.
 Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   Names names;
   for (const auto& analysis : analyses) {
@@ -57,8 +57,8 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
 /// Whether a variable contains fluxes, which exist only during a step.
 bool isOfRims(const std::string& name) { return name.starts_with("rim."); }
 
-/// The variables of a step that the next one needs, except those computed anew before each step, and with the ids of
-/// particles if there are any.
+/// The variables of a step that the next step needs, except those that are computed anew before each step. Includes the
+/// ids of particles if there are particles.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
   std::erase_if(needed, [&](const std::string& name) {
     return decided.contains(name) || name == data::recomputeTimeStep.name || isOfRims(name);
@@ -75,14 +75,14 @@ std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>&
   return samples;
 }
 
-/// The variables of the old state that lists read, and those that a step always needs.
+/// The variables of the old state that the lists read, and those that every step needs.
 Names requiredByAll(std::initializer_list<const Pruned*> lists) {
   Names names{std::string(data::recomputeTimeStep.name)};
   for (const Pruned* list : lists) names.merge(requiredOfState(list->kept));
   return names;
 }
 
-/// The tasks that mark cells: by criteria, and those of the component itself.
+/// The tasks that mark cells: those of the criteria and those of the component.
 tasks::TaskList estimating(const tasks::TaskList& diagnostics, std::vector<BoundCriterion> criteria,
                            const tasks::TaskList& estimate) {
   tasks::TaskList list;
@@ -92,7 +92,7 @@ tasks::TaskList estimating(const tasks::TaskList& diagnostics, std::vector<Bound
   return list;
 }
 
-/// The time step, and further variables that the same tasks compute.
+/// The time step, and the other variables that the same tasks compute.
 Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
   return united(producedBy(stableTimeStep), {std::string(data::delT.name), std::string(tasks::partOfStep.name)});
 }
@@ -132,7 +132,7 @@ void Phases::noteMaterials() {
 
 namespace {
 
-/// The numbers in a text such as `0`, `0,2` or `1-3`; none for any other text.
+/// The numbers in a text such as `0`, `0,2` or `1-3`; none if the text has another form.
 std::vector<int> numbersIn(const std::string& text) {
   std::vector<int> numbers;
   std::istringstream parts(text);
@@ -276,7 +276,7 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
 
 namespace {
 
-/// Notes that regridding interpolates cell variables, including those of materials, from the cells around.
+/// Records that regridding interpolates cell variables, including those of materials, from surrounding cells.
 void widenForRegridding(const std::vector<std::string>& lasting, int materials, data::VariableTable& table) {
   for (const std::string& name : lasting)
     for (int material = -1; material < materials; ++material)
@@ -295,7 +295,7 @@ Names namesOf(const std::vector<ConservedTotal>& totals) {
   return names;
 }
 
-/// Adds problems that have not been found before.
+/// Adds those problems that are not in the list yet.
 void addOthers(const std::vector<InputProblem>& found, std::vector<InputProblem>& problems) {
   for (const InputProblem& problem : found)
     if (std::none_of(problems.begin(), problems.end(),
@@ -303,14 +303,14 @@ void addOthers(const std::vector<InputProblem>& found, std::vector<InputProblem>
       problems.push_back(problem);
 }
 
-/// Throws InputError for tasks that cannot run on a grid of several levels.
+/// Throws InputError if tasks cannot run on a grid of several levels.
 void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid& grid, const Location& where) {
   std::vector<InputProblem> problems;
   for (const Pruned* list : lists) addOthers(problemsOnLevels(list->kept, grid, where), problems);
   throwIfAny(std::move(problems));
 }
 
-/// Throws InputError if tasks cannot run level by level.
+/// Throws InputError if tasks cannot run on one level at a time.
 void refuseSmallerSteps(std::initializer_list<const Pruned*> lists, const Location& where) {
   std::vector<tasks::Task> all;
   for (const Pruned* list : lists) all.insert(all.end(), list->kept.begin(), list->kept.end());

@@ -14,13 +14,13 @@
 
 namespace tushar::simulation {
 
-/// The compiled task lists of a run: an earlier list must provide the variables that a later one reads.
+/// The compiled task lists of a run. The variables that a list reads must be provided by an earlier list.
 ///
 /// The diagnostics are compiled four times from one list, each time for another purpose: the totals at the start, the
 /// globals saved in every step, the derived fields of an output, the totals and errors of the report.
 class Phases {
  public:
-  /// Collects the task lists. Throws TaskError for one that reads what no task writes.
+  /// Collects the task lists. Throws TaskError if a task reads a variable that no task writes.
   Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses);
 
   /// Problems with the labels and materials that a scene saves.
@@ -30,31 +30,31 @@ class Phases {
   std::vector<InputProblem> problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// Whether tasks compute a variable for each material.
   bool isOfMaterials(const std::string& label) const;
-  /// Notes on saved numbers of materials that do not exist.
+  /// Notes on indices of materials in `save` that do not exist.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
-  /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, and for a task that
-  /// cannot run on the levels of the grid; TaskError for lists that do not fit together. `smallerSteps`: the tag that
-  /// has finer levels take smaller steps, if they do.
+  /// Compiles the lists. Throws InputError if no task computes a saved or sampled label, or if a task cannot run on the
+  /// levels of the grid; throws TaskError for lists that do not fit together. `smallerSteps` is the tag that requests
+  /// smaller steps on finer levels, if any.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {},
                const std::optional<Location>& smallerSteps = {});
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
-  tasks::TaskGraph refinement;  ///< where criteria require finer cells
-  tasks::TaskGraph refined;     ///< tasks of the component for newly refined cells
-  tasks::TaskGraph refluxing;   ///< refluxing on a level after the smaller steps of the next finer one
+  tasks::TaskGraph refinement;  ///< marks cells where criteria require finer ones
+  tasks::TaskGraph refined;     ///< corrects the values of newly refined cells
+  tasks::TaskGraph refluxing;   ///< refluxing on a level, after the smaller steps of the next finer level
 
-  /// Sorted names of the variables from the previous step that a step and the totals need: the state of a run,
+  /// Sorted names of the variables of the previous step that a step and the totals need: the state of a run,
   /// independent of what else is saved and measured.
   const std::vector<std::string>& state() const { return state_; }
-  /// Names of the variables in the fingerprint: the state or, if no step needs variables of the previous one, the saved
-  /// and measured variables.
+  /// Names of the variables in the fingerprint: the state or, if no step needs variables of the previous step, the
+  /// saved and measured variables.
   const std::vector<std::string>& fingerprinted() const { return state_.empty() ? lasting_ : state_; }
   /// Sorted names of the variables that outlive a step: the state, and other saved variables.
   const std::vector<std::string>& lasting() const { return lasting_; }
   /// Saved variables of particles, nodes and cells.
   const std::vector<SaveRequest>& savedFields() const { return saved_fields_; }
-  /// Saved reductions.
+  /// Names of the saved reductions.
   const std::vector<std::string>& savedGlobals() const { return saved_globals_; }
   const std::vector<std::string>& materials() const { return materials_; }
   /// Totals whose drift the component can report.
@@ -69,20 +69,20 @@ class Phases {
   struct Lists {
     tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics, errorEstimate, refine, reflux;
   };
-  /// Adds the tasks that keep totals constant between levels.
+  /// Adds the tasks that keep totals constant across levels (refluxing).
   void addRefluxing(bool bySmallerSteps);
   void validateAll() const;
   void noteMaterials();
   bool isMaterial(const std::string& name) const;
-  /// The requests with names of materials instead of indices; as in Uintah, an index one above the last means all
+  /// The requests with names of materials instead of indices; as in Uintah, one more than the last index means all
   /// materials, and higher ones mean none.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
-  /// The diagnostics, followed by the task that marks cells to refine; nothing if the grid does not change. Throws
-  /// InputError for a criterion whose variable is not one of cells.
+  /// The diagnostics, followed by the task that marks cells to refine; empty if the grid does not change. Throws
+  /// InputError for a criterion whose variable is not a cell variable.
   tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
   /// Throws InputError for node variables that are saved, or sampled in parts of the grid.
   void refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
-  /// The saved and sampled variables: of diagnostics in every step and at outputs, and of the state.
+  /// The saved and sampled variables: diagnostics needed in every step, diagnostics needed at outputs, and the state.
   struct Wants {
     tasks::Names everyStep, everyOutput, ofState;
   };

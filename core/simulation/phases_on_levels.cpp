@@ -3,7 +3,7 @@
 #include "core/simulation/phases.hpp"
 #include "core/tasks/reflux.hpp"
 
-// What is otherwise on a grid of several levels.
+// The parts of Phases that apply only to grids of several levels.
 
 namespace tushar::simulation {
 

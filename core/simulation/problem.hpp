@@ -14,17 +14,17 @@
 
 namespace tushar::simulation {
 
-/// A scene that has been checked, ready to run.
+/// A scene that has been checked and is ready to run.
 struct Problem {
   std::string scenePath, title, componentName;
-  std::string inputXml;             ///< the scene with its overrides, for the archive
+  std::string inputXml;             ///< the scene with its overrides as XML, for the archive
   std::vector<InputProblem> notes;  ///< notes on parts of the scene that have no effect
   TimeSettings time;
   ArchiveSettings archive;
   RegridSettings regrid;
-  std::optional<Location> smallerSteps;  ///< the tag by which finer levels take smaller steps, if they do
+  std::optional<Location> smallerSteps;  ///< the tag that makes finer levels take smaller steps, if there is one
   std::unique_ptr<grid::Grid> grid;
-  int threads = 1;         ///< at most
+  int threads = 1;         ///< largest number of threads
   int cellsPerThread = 0;  ///< smallest number of cells per thread; 0: no limit
   std::unique_ptr<Component> component;
   std::vector<std::unique_ptr<Analysis>> analyses;

@@ -37,9 +37,10 @@ void Rebalancer::balance(const std::vector<double>& costs) {
   run_.scheduler.forgetLayout();
   balance_.noteChange(run_.ranks.max(secondsSince(started)));
   const Rebalancing& change = balance_.report();
-  run_.progress.line(fmt::format(
-      "step {:>6}  patches change ranks: the load of the busiest rank changes from {:.2f} to {:.2f} times its share",
-      run_.time.step(), change.before, change.after));
+  run_.progress.line(
+      fmt::format("step {:>6}  patches change ranks: the load of the busiest rank changes from {:.2f} to {:.2f} times "
+                  "the mean load",
+                  run_.time.step(), change.before, change.after));
 }
 
 }  // namespace tushar::simulation

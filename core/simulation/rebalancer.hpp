@@ -12,15 +12,15 @@ class Rebalancer {
  public:
   explicit Rebalancer(RunState& run) : run_(run), balance_(run.ranks.size()) {}
 
-  /// Balances by the cells and particles of each patch, before the first step.
+  /// Balances according to the number of cells and particles of each patch, before the first step.
   void balanceAtStart();
-  /// Balances by the time that tasks have taken on each patch, after a step.
+  /// Balances according to the time that tasks have taken on each patch, after a step.
   void balanceIfDue();
 
   const Rebalancing& report() const { return balance_.report(); }
 
  private:
-  /// `costs` are those of the patches of this rank.
+  /// `costs` are the costs of this rank's patches.
   void balance(const std::vector<double>& costs);
 
   RunState& run_;

@@ -22,7 +22,7 @@ double norm(const double* values, int components) {
   return components == 1 ? std::abs(values[0]) : std::sqrt(sum);
 }
 
-/// |q(i+1) - q(i-1)| / 2.
+/// Half the central difference: |q(i+1) - q(i-1)| / 2.
 double halfJump(const Neighbours& near, int components) {
   if (components == 1) return 0.5 * std::abs(valueAt(near.above, near.middle, 0) - valueAt(near.below, near.middle, 0));
   double sum = 0;
@@ -33,7 +33,8 @@ double halfJump(const Neighbours& near, int components) {
   return 0.5 * std::sqrt(sum);
 }
 
-/// Half the difference between the outer two, divided by the smallest magnitude of the three; infinite if that is 0.
+/// Half the difference between the outer two values, divided by the smallest magnitude of the three; infinite if that
+/// is 0.
 double relativeJump(double below, double middle, double above) {
   const double jump = 0.5 * std::abs(above - below);
   return jump == 0 ? 0 : jump / std::min(std::min(std::abs(below), std::abs(middle)), std::abs(above));
@@ -66,7 +67,7 @@ double gradient(std::span<const Neighbours> axes, std::span<const double> spacin
   return std::sqrt(sum);
 }
 
-/// The mark of one criterion, 0, 1 or 2.
+/// The mark that one criterion gives to a cell: 0, 1 or 2.
 int markOf(const Criterion& criterion, std::span<const Neighbours> axes, std::span<const double> spacing,
            int components) {
   const double value = indicatorOf(criterion.indicator, axes, spacing, components);
@@ -75,7 +76,7 @@ int markOf(const Criterion& criterion, std::span<const Neighbours> axes, std::sp
   return isBeyond(criterion.refine) ? 2 : isBeyond(criterion.coarsen) ? 1 : 0;
 }
 
-/// A jump from the `N` numbers of a cell and of the cells on both sides.
+/// The indicator of a jump, from the `N` components in a cell and in the cells on both sides.
 template <int N>
 double jumpOf(const double* below, const double* middle, const double* above) {
   if constexpr (N == 1) return relativeJump(*below, *middle, *above);
@@ -84,7 +85,8 @@ double jumpOf(const double* below, const double* middle, const double* above) {
   return 0.5 * std::sqrt(sum);
 }
 
-/// The same as raiseMarks for jumps of `N` numbers, in rows along the first axis: most criteria are of this kind.
+/// Like raiseMarks, for jumps of variables with `N` components, row by row along the first axis. Most criteria are of
+/// this kind.
 template <int N>
 void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, const data::Variable& values,
                        const data::Variable& marks) {
@@ -115,8 +117,8 @@ void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, con
   });
 }
 
-/// Raises the marks of a patch to those of one criterion. Stored values extend beyond the patch, except where the grid
-/// ends.
+/// Raises the marks of a patch to those of one criterion. The stored values include ghosts around the patch, except
+/// outside the grid.
 void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const data::Variable& values,
                 const data::Variable& marks) {
   const grid::Level& level = patch.level();
@@ -149,7 +151,7 @@ void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const dat
   });
 }
 
-/// Computes the marks of a patch; the last access is that of the marks.
+/// Computes the marks of a patch; the last access contains the marks.
 void findMarks(const tasks::TaskContext& context, const std::vector<BoundCriterion>& criteria) {
   const data::Variable marks = context.variable(static_cast<int>(criteria.size()));
   std::fill_n(reinterpret_cast<int*>(marks.values), marks.stored.size(), 0);

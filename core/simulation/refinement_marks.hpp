@@ -14,26 +14,27 @@ struct BoundCriterion {
   Criterion criterion;
   const data::Label* label;
   bool isDiagnosed;
-  std::vector<std::string> materials = {};  ///< the materials that have the variable; empty if it belongs to none
+  /// Names of the materials that have the variable; empty if it does not belong to materials.
+  std::vector<std::string> materials = {};
 };
 
-/// The materials for which tasks write a variable; empty if it belongs to none.
+/// The materials for which tasks write a variable; empty if it does not belong to materials.
 std::vector<std::string> materialsOf(const std::vector<tasks::Task>& tasks, const data::Label& label);
 
-/// The numbers of a cell's variable and those of its two neighbours along an axis; null if there is none.
+/// The values of a variable in a cell and in its two neighbours along an axis; null if there is no neighbour.
 struct Neighbours {
   const double *below, *middle, *above;
 };
 
 /// The indicator of a cell from its neighbours along each axis, at distances `spacing` [m]; see Criterion::Indicator.
-/// Of vectors (several `components`) a jump is that of the vector, in its unit. Beyond the grid the cell's own value
-/// counts. Source of the second derivative: R. Löhner, Comput. Methods Appl. Mech. Eng. 61 (1987) 323, with filter
-/// 0.01.
+/// For vectors (several `components`), a jump is the magnitude of the vector jump, in its unit. Beyond the grid, the
+/// cell's own value is used. Source of the second derivative: R. Löhner, Comput. Methods Appl. Mech. Eng. 61 (1987)
+/// 323, with filter 0.01.
 double indicatorOf(Criterion::Indicator indicator, std::span<const Neighbours> axes, std::span<const double> spacing,
                    int components);
 
-/// The task that computes tasks::refinementMark from all criteria; the mark is 0 if there are none. Those of materials
-/// must have the same.
+/// The task that computes tasks::refinementMark from all criteria; the mark is 0 if there are none. All criteria with
+/// materials must have the same materials.
 tasks::Task markTask(std::vector<BoundCriterion> criteria);
 
 }  // namespace tushar::simulation

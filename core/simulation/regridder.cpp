@@ -23,7 +23,7 @@ BlockId parentOf(BlockId block, int dimension) {
   return block;
 }
 
-/// Blocks as text, each once, to be sent.
+/// Blocks as text that can be sent, without duplicates.
 std::string textOf(std::vector<BlockId> blocks) {
   std::sort(blocks.begin(), blocks.end());
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
@@ -37,10 +37,10 @@ void addBlocks(const std::string& text, std::vector<BlockId>& blocks) {
   std::memcpy(blocks.data() + before, text.data(), count * sizeof(BlockId));
 }
 
-/// Cells of a patch along an axis that are near the same blocks.
+/// Consecutive cells of a patch along an axis that are near the same blocks.
 struct CellRun {
-  int first, last;             ///< indices in the patch, [first, last)
-  std::pair<int, int> blocks;  ///< [lower, upper)
+  int first, last;             ///< range of cells in the patch: [first, last)
+  std::pair<int, int> blocks;  ///< range of blocks: [lower, upper)
 };
 
 /// Raises marks of blocks, starting at `origin`, to those of a row of cells; returns whether there are any.
@@ -89,8 +89,8 @@ void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
     });
 }
 
-/// Cells of a row mark blocks along the first axis; the marks then apply to all rows of blocks near that row of cells.
-/// So each block is marked once, for any number of cells near it.
+/// Each row of cells first marks blocks along the first axis. These marks then apply to all rows of blocks near this
+/// row of cells, so that a row of cells marks each block only once.
 void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& stored) {
   const grid::Level& level = patch.level();
   const Box& cells = patch.cells();
@@ -131,7 +131,8 @@ void MarkedBlocks::ask(const BlockId& image, int mark) {
     if (const BlockId parent = parentOf(block, dimension); kept_.empty() || kept_.back() != parent)
       kept_.push_back(parent);
   if (mark < 2 || block.level == grid_.levels() - 1) return;
-  // Of a block that is not there yet, the leaf that it lies in is refined: no cell becomes two levels finer at once.
+  // If the block does not exist yet, the leaf that contains it is refined instead, so that no cell becomes two levels
+  // finer in one regridding.
   for (const int there = grid_.tree().levelAt(block); block.level > there;) block = parentOf(block, dimension);
   wanted_.push_back(block);
 }
@@ -191,7 +192,8 @@ void Regridder::addParticles(MarkedBlocks& marked) {
     }
 }
 
-/// Steps between regriddings; if finer levels take smaller steps, rounded up to whole steps of the coarsest.
+/// Number of steps between regriddings; if finer levels take smaller steps, rounded up to whole steps of the coarsest
+/// level.
 int Regridder::stepsBetween() const {
   const int finer = run_.problem.smallerSteps ? run_.problem.grid->levels() - 1 : 0;
   return ((run_.problem.regrid.interval - 1) >> finer) + 1;

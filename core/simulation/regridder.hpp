@@ -11,7 +11,7 @@
 
 namespace tushar::simulation {
 
-/// The blocks that marked cells require: those that must be refined, and those whose children must be preserved. Both
+/// The blocks that marked cells require: blocks that must be refined, and blocks whose children must be preserved. Both
 /// follow from the tree and the marks alone.
 class MarkedBlocks {
  public:
@@ -20,39 +20,39 @@ class MarkedBlocks {
   MarkedBlocks(const grid::Grid& grid, int interval, int dilation)
       : grid_(grid), interval_(std::min(interval, farthest)), dilation_(std::min(dilation, farthest)) {}
 
-  /// Adds a mark of a cell; see refinementMark.
+  /// Adds the mark of a cell; see refinementMark.
   void add(const grid::Level& level, const Index3& cell, int mark);
   /// Adds the marks of all cells of a patch.
   void add(const grid::Patch& patch, const int* marks, const grid::Box& stored);
-  /// Adds a cell with particles: no coarser cells are allowed within the distance that they can travel plus `margin`
-  /// cells of the finest level.
+  /// Adds a cell with particles: no coarser cells are allowed within the distance that the particles can travel plus
+  /// `margin` cells of the finest level.
   void addParticles(const grid::Level& level, const Index3& cell, int margin);
-  /// Unites the marks of all ranks, which must all call this.
+  /// Merges the marks of all ranks. Collective.
   void unite(const mpi::Communicator& ranks);
-  /// The tree that the marks require. Of blocks that are refined, only those may be coarsened that have no refined
-  /// child.
+  /// The tree that the marks require. Only refined blocks without refined children may be coarsened.
   grid::BlockTree tree() const;
 
  private:
   static constexpr int farthest = 1 << 28;  // cells: beyond any grid, and two of them are still a number
 
-  /// Blocks along an axis, [lower, upper).
+  /// Range of blocks along an axis: [lower, upper).
   using Range = std::pair<int, int>;
 
-  /// Marks a block, or the one of which it is a periodic image.
+  /// Marks a block or, if it is a periodic image, its original.
   void ask(const grid::BlockId& image, int mark);
   grid::BlockId wrapped(grid::BlockId image) const;
-  /// The blocks along an axis within a distance of a cell of a level, on the grid or its images.
+  /// The blocks along an axis within a distance of a cell, on the grid or its periodic images.
   Range blocksAlong(const grid::Level& level, int axis, int cell, int distance) const;
-  /// Blocks of a level within a distance of a cell of it, on the grid or its images.
+  /// The blocks of a level within a distance of a cell of this level, on the grid or its periodic images.
   grid::Box blocksNear(const grid::Level& level, const Index3& cell, int distance) const;
-  /// The cells of a level that signals can cross until the next regridding.
+  /// The number of cells of a level that signals can cross until the next regridding.
   int crossed(const grid::Level& level) const { return ((interval_ - 1) >> (grid_.levels() - 1 - level.number())) + 1; }
 
   const grid::Grid& grid_;
   int interval_, dilation_;
-  std::set<std::array<int, 7>> near_particles_;  ///< levels, and corners of boxes of their blocks
-  std::vector<grid::BlockId> wanted_, kept_;     ///< may contain duplicates
+  std::set<std::array<int, 7>> near_particles_;  ///< level and corners of boxes of blocks near particles
+  /// Blocks to refine, and blocks whose children to preserve; may contain duplicates.
+  std::vector<grid::BlockId> wanted_, kept_;
 };
 
 /// Refines the grid of a run by its criteria. All ranks make the same calls.
@@ -60,16 +60,16 @@ class Regridder {
  public:
   explicit Regridder(RunState& run) : run_(run) {}
 
-  /// Refines the grid for the initial state; returns true if the grid changed, in which case it has no values yet.
+  /// Refines the grid for the initial state. Returns true if the grid has changed; it then has no values yet.
   bool refinedStart();
-  /// Changes the grid and its values between two steps, if that is due and the state requires it.
+  /// Changes the grid between two steps and transfers the values, if this is due and the state requires it.
   void regridIfDue();
 
   int regrids() const { return regrids_; }
   double seconds() const { return seconds_; }
 
  private:
-  /// Number of steps from one regridding to the next, and the same in steps of the finest level.
+  /// Number of steps between regriddings; `finestStepsBetween`: the same period in steps of the finest level.
   int stepsBetween() const;
   int finestStepsBetween() const;
   grid::BlockTree wantedTree();

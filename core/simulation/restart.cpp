@@ -24,7 +24,7 @@ InputError refusalOf(const Restart& restart) {
   return InputError(std::move(problems));
 }
 
-/// Refuses a checkpoint of a newer version; otherwise an earlier one would be used, and this one would be lost.
+/// Refuses a checkpoint of a newer version. (Otherwise an earlier one would be used, and this one would be lost.)
 [[noreturn]] void refuseNewer(const Restart& restart, const std::string& sentence, const mpi::Communicator& ranks) {
   if (ranks.isFirst()) throw InputError({{{restart.state().parent_path().string(), 0, 0}, "", sentence}});
   throw mpi::FailedElsewhere();

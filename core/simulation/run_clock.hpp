@@ -17,30 +17,30 @@ inline double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The wall clock of a run, and external requests by signals and files. All ranks share its last reading, so that they
+/// The wall clock of a run, and external requests by signals and files. All ranks share the last reading, so that they
 /// end the run, save the state and write checkpoints after the same step.
 class RunClock {
  public:
   /// `startedAt` is when the process started.
   explicit RunClock(Clock::time_point startedAt) : started_at_(startedAt) {}
 
-  /// Time since the process started, on this rank, s.
+  /// Time since the process started, on this rank [s].
   double now() const { return secondsSince(started_at_); }
-  /// From now on, this rank, which must be the first, checks for request files in the folder of the archive.
+  /// From now on, checks for request files in the folder of the archive. Only on the first rank.
   void watch(const std::filesystem::path& folder) { files_.emplace(folder); }
-  /// Reads the clock and the requests to any rank, collectively on all ranks. All ranks call it.
+  /// Reads the clock, and the requests received by any rank. Collective.
   void agree(const mpi::Communicator& ranks);
-  /// Time since the process started, at the last reading of all ranks, s.
+  /// Time since the process started, when all ranks last read the clock [s].
   double elapsed() const { return elapsed_; }
   /// Whether an interrupt must end the run on all ranks.
   bool isInterrupted() const { return interrupted_; }
   /// Whether a request file must end the run.
   bool isStopped() const { return stopped_; }
-  /// Notes a failure on this rank, of which the others are informed.
+  /// Records a failure on this rank; the others are informed.
   void noteFailure() { failed_ = true; }
   /// Whether any rank had reported a failure at the last synchronisation.
   bool hasFailed() const { return failed_; }
-  /// Whether the state must be saved now; true once for each request.
+  /// Whether the state must be saved now; returns true once for each request.
   bool takeSaveRequest() { return std::exchange(save_asked_, false); }
 
  private:

@@ -28,8 +28,8 @@ std::vector<long> RunReport::cellsOfLevels() const {
   return cells;
 }
 
-/// Counts the updates of levels; a finest level without cells would have taken twice as many steps as the next coarser
-/// one.
+/// Counts the cell updates of levels. To estimate the updates of a uniform grid, a finest level without cells counts as
+/// if it had taken twice as many steps as the next coarser level.
 void RunReport::noteLevels(const std::vector<int>& steps) {
   const std::vector<long> cells = cellsOfLevels();
   double finestSteps = 0;
@@ -73,8 +73,8 @@ Report RunReport::make(double fileMemory) {
   return report;
 }
 
-/// Adds the memory; the free memory after the last step is the amount by which returning it to the system would reduce
-/// the total.
+/// Adds the use of memory. The free memory after the last step is measured by how much the total falls when it is
+/// returned to the system.
 void RunReport::addMemory(Report& report, double fileMemory) {
   const ResidentMemory memory = residentMemory();
   run_.warehouse.releaseFreeMemory();
@@ -137,7 +137,7 @@ void RunReport::addTasks(Report& report) {
 
 namespace {
 
-/// The largest momentum that the mass can have with the energy, sqrt(2 m E), a scale for drifts; 0 if one of them is
+/// The largest momentum that the mass can have with the energy, sqrt(2 m E), a scale for drifts; 0 if either is
 /// unknown.
 double greatestMomentum(const Totals& totals, const std::vector<ConservedTotal>& kinds) {
   double mass = 0, energy = 0;

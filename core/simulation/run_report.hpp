@@ -8,20 +8,20 @@
 namespace tushar::simulation {
 
 /// Measures a run in progress, and its state at the end. All ranks make the same calls. `outputSeconds` is the wall
-/// time spent on outputs since the process started, s.
+/// time spent on outputs since the process started [s].
 class RunReport {
  public:
   explicit RunReport(RunState& run) : run_(run) {}
 
-  /// Notes that the start-up is over. Modules that had to be built first do not count.
+  /// Records that the start-up is over. The time to build missing modules does not count.
   void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds - secondsOfBuilds(); }
   void beginLoop(double outputSeconds);
-  /// Notes a step, and the number of steps of each level in it; empty: one of each.
+  /// Records a step, and the number of steps of each level in it; empty: one step of each level.
   void noteStep(const std::vector<int>& stepsOfLevels = {});
   void endLoop(double outputSeconds);
 
-  /// The report, except how the run ended, its outputs, and the patches that changed ranks. `fileMemory` is by how much
-  /// outputs and checkpoints have raised the peak of this rank's memory, bytes.
+  /// Makes the report, except for the end of the run, its outputs, and the patches that changed ranks. `fileMemory` is
+  /// the increase of this rank's peak memory caused by outputs and checkpoints [bytes].
   report::Report make(double fileMemory = 0);
 
  private:
@@ -38,12 +38,12 @@ class RunReport {
   Clock::time_point loop_started_;
   Threads::Use use_before_;
   double output_before_ = 0;
-  double start_up_ = 0, loop_ = 0;  ///< s, without outputs
+  double start_up_ = 0, loop_ = 0;  ///< wall time of the start-up and of the time loop, without outputs [s]
   report::TimeUse use_;
-  long particle_steps_ = 0;            ///< of this rank's particles
-  double updates_ = 0;                 ///< updates of cells, over all ranks
-  double uniform_updates_ = 0;         ///< the same if all cells were on the finest level
-  std::vector<double> level_updates_;  ///< of the cells of each level, where finer ones take smaller steps
+  long particle_steps_ = 0;            ///< number of updates of this rank's particles
+  double updates_ = 0;                 ///< number of cell updates, on all ranks
+  double uniform_updates_ = 0;         ///< number of cell updates if all cells were on the finest level
+  std::vector<double> level_updates_;  ///< number of cell updates of each level, if finer levels take smaller steps
 };
 
 }  // namespace tushar::simulation

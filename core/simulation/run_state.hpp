@@ -16,28 +16,29 @@
 
 namespace tushar::simulation {
 
-/// Mass, momentum and energy over the whole grid: the components of each, in the order of Phases::totals().
+/// The totals of mass, momentum and energy over the whole grid, in the order of Phases::totals(), each with its
+/// components.
 using Totals = std::vector<std::vector<double>>;
 
 /// The state that the parts of a run share: the problem, its compiled tasks and variables, and its progress.
 struct RunState {
-  /// Compiles the task graphs. Throws what Phases throws.
+  /// Compiles the task graphs. Throws the exceptions of Phases.
   RunState(Problem problem, const RunOptions& options, Clock::time_point startedAt, const mpi::Communicator& ranks);
   RunState(const RunState&) = delete;
   RunState& operator=(const RunState&) = delete;
 
   /// Number of materials.
   int materials() const { return static_cast<int>(phases.materials().size()); }
-  /// Sets the time of the analysis modules.
+  /// Passes the current time to the analysis modules.
   void setTimeOfAnalyses();
   /// Runs diagnostics on the current state.
   void diagnose(tasks::TaskGraph& graph);
-  /// The values of a reduction; empty if it has none yet, or if no task computes it.
+  /// The values of a reduction; empty if it has no value yet, or if no task computes it.
   std::vector<double> reduction(std::string_view label) const;
-  /// The totals of the current state, computed by a graph.
+  /// The totals of the current state, computed by the given graph.
   Totals measureTotals(tasks::TaskGraph& graph);
 
-  /// Particles that all ranks have lost since the start; all ranks call it.
+  /// Number of particles that all ranks have lost since the start. Collective.
   tasks::LostParticles lostParticles();
 
   /// The variables that outlive a step.
@@ -45,10 +46,11 @@ struct RunState {
 
   Problem problem;
   const mpi::Communicator& ranks;
-  mpi::Communicator files;  ///< the same ranks, for messages about files, separate from those of tasks
-  output::Writers writers;  ///< among these
+  /// Communicator of the same ranks, for messages about files, separate from messages of tasks.
+  mpi::Communicator files;
+  output::Writers writers;  ///< the ranks that write files
   std::optional<std::size_t>
-      mostBehind;  ///< bytes of an output that a writer may keep in memory; by default a suitable amount
+      mostBehind;  ///< largest size of an output that a writer may keep in memory [bytes]; by default a suitable amount
   data::VariableTable table;
   Phases phases;
   data::Warehouse warehouse;
@@ -56,7 +58,7 @@ struct RunState {
   TimeControl time;
   RunClock clock;
   Progress progress;
-  Totals totalsAtStart;  ///< of the run, or of the one that it continues
+  Totals totalsAtStart;  ///< totals at the start of the run, or of the run that it continues
 };
 
 }  // namespace tushar::simulation

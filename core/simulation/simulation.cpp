@@ -21,7 +21,7 @@ std::string hostName() {
   return name;
 }
 
-/// Settings, missing in the scene, that would keep particles in the finest cells.
+/// Advice to the user: names settings that are missing in the scene and would keep particles in the finest cells.
 std::string adviceNearCoarser(const RegridSettings& regrid) {
   if (!regrid.adaptive)
     return "<adaptive>true</adaptive> in <AMR>, so that the finest cells follow; or a larger <Level>";
@@ -29,7 +29,8 @@ std::string adviceNearCoarser(const RegridSettings& regrid) {
   return "a smaller <min_timestep_interval> in <AMR>, so that the finest cells follow in time";
 }
 
-/// Throws NumericalError, on all ranks, if so many particles were removed that the rest says little about the scene.
+/// Throws NumericalError, on all ranks, if so many particles were removed that the result no longer represents the
+/// scene.
 void refuseLosses(RunState& run) {
   constexpr double most = 0.01;
   const long removed = run.scheduler.relocation().lost().removed;
@@ -96,8 +97,8 @@ void Simulation::openLog() {
   run_.ranks.onFirst([&] { log_.emplace(outputs_.folder(), record_); });
 }
 
-/// Saves the state at the end. `mpirun` gives an interrupted run two seconds, so the checkpoint, which a restart needs,
-/// comes first.
+/// Saves the state at the end. The checkpoint comes first, because a restart needs it, and `mpirun` gives an
+/// interrupted run only two seconds.
 void Simulation::saveEnd() {
   const bool isCut = run_.clock.isInterrupted() || run_.clock.isStopped();
   if (failure_) saveLastGood();
@@ -134,11 +135,11 @@ void Simulation::begin() {
 void Simulation::resume() {
   checkpoints_.resume();
   outputs_.passMilestones();
-  run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
+  run_.setTimeOfAnalyses();  // the earlier run has taken the samples that were due up to now
 }
 
-/// Initialises the state on successively finer cells, as far as it requires them: finer cells resolve more of the
-/// initial state.
+/// Initialises the state on successively finer cells, as far as the state requires them: finer cells resolve more of
+/// the initial state.
 void Simulation::initialize() {
   do {
     initializeOnce();

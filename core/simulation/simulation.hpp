@@ -25,23 +25,23 @@ namespace tushar::simulation {
 /// and reports for all ranks.
 class Simulation {
  public:
-  /// Compiles the task graphs. `startedAt` is when the process started. Throws what Phases throws.
+  /// Compiles the task graphs. `startedAt` is when the process started. Throws the exceptions of Phases.
   Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt);
-  /// Runs on one of the ranks that share the grid. All ranks make one, and make the same calls.
+  /// Constructs a run on one of the ranks that share the grid. All ranks construct one, and make the same calls.
   Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt, const mpi::Communicator& ranks);
 
   const Phases& phases() const { return run_.phases; }
   data::Warehouse& warehouse() { return run_.warehouse; }
-  /// Only creates the initial state, or reads the checkpoint; returns the number of particles. Throws what a run would
-  /// throw there.
+  /// Creates the initial state, or reads the checkpoint, without a time step; returns the number of particles. Throws
+  /// the exceptions that the start of a run would throw.
   long tryStart();
-  /// The entry of run.json for the program and its command line.
+  /// Sets the entry of run.json for the program and its command line.
   void setRecord(output::RunRecord record) { record_ = std::move(record); }
   /// Sets a function that is called on the first rank with messages about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { checkpoints_.setWarning(std::move(warn)); }
-  /// Runs until the end of the scene, an interrupt, a file `stop_now` in the archive, or an invalid value, which the
-  /// report then names; the last complete step is saved. Throws TaskError, FileError, and NumericalError for such a
-  /// value at the start.
+  /// Runs until the end of the scene, an interrupt, a file `stop_now` in the archive, or an invalid value. The report
+  /// then names the invalid value, and the last complete step is saved. Throws TaskError, FileError, and NumericalError
+  /// for an invalid value at the start.
   report::Report run();
 
  private:
@@ -50,24 +50,24 @@ class Simulation {
   void resume();
   void initialize();
   void initializeOnce();
-  /// Throws InputError if there are particles where they are not allowed.
+  /// Throws InputError if there are particles on levels on which they are not allowed.
   void refuseCoarseParticles();
   void loop();
   void step();
-  /// Advances the state by a time step, which is repeated with a shorter one if a task requires it.
+  /// Advances the state by one time step, which is repeated with a shorter one if a task requires it.
   void advance();
-  /// The longest stable step for the state, and the limit that determines it.
+  /// The longest stable step for the current state, and the limit that determines it.
   data::Minimum stableStep();
-  /// Tries the step; the factor for a smaller one, if a task requires it.
+  /// Tries a step of length `dt` [s]; if a task requires a shorter one, returns the factor.
   std::optional<data::Minimum> tryStep(double dt);
   bool hasEnded() const;
   std::string whyEnded() const;
   NumericalError advised(const NumericalError& error) const;
-  /// Writes an output and a checkpoint of the old state, that of the last complete step, if the run has an archive.
+  /// Writes an output and a checkpoint of the last complete step (the old state), if the run has an archive.
   void saveLastGood();
-  /// Wall time of outputs and checkpoints, s.
+  /// Wall time of outputs and checkpoints [s].
   double outputSeconds() const { return outputs_.seconds() + checkpoints_.seconds(); }
-  /// Writes an output and a checkpoint between steps, as a signal or a file has requested.
+  /// Writes an output and a checkpoint between steps, at the request of a signal or a file.
   void saveNow();
   /// Writes the output and the checkpoint at the end.
   void saveEnd();
@@ -80,13 +80,13 @@ class Simulation {
   Rebalancer rebalancer_;
   Regridder regridder_;
   RunReport report_;
-  std::optional<LevelSteps> level_steps_;  ///< if finer levels take smaller steps
+  std::optional<LevelSteps> level_steps_;  ///< steps of the levels, if finer levels take smaller ones
   std::optional<NumericalError> failure_;
   output::RunRecord record_;
-  std::optional<output::RunLog> log_;  ///< on rank 0, if the run has an archive
+  std::optional<output::RunLog> log_;  ///< entry in run.json; on rank 0, if the run has an archive
 };
 
-/// The exit code of sus after a run that has a report.
+/// The exit code of sus after a run with this report.
 ExitCode exitCodeOf(const report::Report& report);
 
 }  // namespace tushar::simulation

@@ -21,7 +21,7 @@ output::Snapshot emptySnapshot(const RunState& run, output::GridInfo grid) {
   return snapshot;
 }
 
-/// An entry for every material with p.x, which contains p.x if the material is requested.
+/// Adds an entry for every material that has p.x; the entry contains p.x if the material is requested.
 template <class IsWanted>
 output::Snapshot positions(const RunState& run, Gather& gather, const IsWanted& isWanted) {
   output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.grid));
@@ -35,7 +35,7 @@ output::Snapshot positions(const RunState& run, Gather& gather, const IsWanted& 
   return snapshot;
 }
 
-/// Adds a field; `stream(generation, number)` returns its values.
+/// Adds a field; `stream(generation, number)` provides its values.
 template <class Stream>
 void addField(RunState& run, const SaveRequest& save, const Stream& stream, output::Snapshot& snapshot) {
   for (int m = -1; m < run.materials(); ++m) {
@@ -88,7 +88,7 @@ output::Snapshot snapshotIn(RunState& run, const std::vector<SaveRequest>& reque
   return snapshot;
 }
 
-/// Snapshots of the minimum, the maximum and the sum of values.
+/// Snapshots with the minimum, the maximum and the sum of values.
 std::vector<output::Snapshot> summarySnapshots(RunState& run, const std::vector<SaveRequest>& requests,
                                                collect::SummaryOver over) {
   std::vector<output::Snapshot> parts(3, emptySnapshot(run, collect::gridInfo(*run.problem.grid)));

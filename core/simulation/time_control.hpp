@@ -9,17 +9,17 @@ namespace tushar::simulation {
 
 /// The `Time` section.
 struct TimeSettings {
-  double maxTime = 0;                                    ///< s
-  double initTime = 0;                                   ///< s
-  double deltMin = 0;                                    ///< s
-  double deltMax = std::numeric_limits<double>::max();   ///< s
-  double deltInit = std::numeric_limits<double>::max();  ///< largest first time step, s
-  double initialDeltRange = 0;  ///< time until which deltInit limits the steps, s; it always limits the first
-  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< a step is at most 1 + this times the previous one;
+  double maxTime = 0;                                    ///< end of the run [s]
+  double initTime = 0;                                   ///< start of the run [s]
+  double deltMin = 0;                                    ///< smallest time step [s]
+  double deltMax = std::numeric_limits<double>::max();   ///< largest time step [s]
+  double deltInit = std::numeric_limits<double>::max();  ///< largest first time step [s]
+  double initialDeltRange = 0;  ///< time until which deltInit limits the steps [s]; it always limits the first step
+  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< at most (1 + this) times the previous step;
                                                                 ///< no limit if not positive
   double timestepMultiplier = 1;
   int maxTimesteps = std::numeric_limits<int>::max();
-  double maxWallTime = std::numeric_limits<double>::max();  ///< s
+  double maxWallTime = std::numeric_limits<double>::max();  ///< largest wall time [s]
   bool endAtMaxTimeExactly = false;
   bool clampTimeToOutput = false;
   bool recomputeTimeStep = false;  ///< whether the step is repeated if a value violates its bound
@@ -30,70 +30,70 @@ class TimeControl {
  public:
   explicit TimeControl(const TimeSettings& settings) : settings_(settings), time_(settings.initTime) {}
 
-  double time() const { return time_; }   ///< s
-  double delT() const { return del_t_; }  ///< The length of the last step, s.
+  double time() const { return time_; }   ///< Current time [s].
+  double delT() const { return del_t_; }  ///< The length of the latest step [s].
   int step() const { return step_; }
   /// Whether maxTime or max_Timesteps has been reached.
   bool done() const;
 
   /// The next time step [s]: timestep_multiplier times `stable`, limited by max_delt_increase, delt_min and delt_max;
   /// at the start no longer than delt_init, even if that is below delt_min; and, if the scene requests it, such that
-  /// the step ends exactly at maxTime or the next output. A rest up to maxTime that rounding alone would leave is part
-  /// of the step. Throws NumericalError for a step that is not positive or too small to move time on.
+  /// the step ends exactly at maxTime or the next output. If only a rest due to rounding would remain until maxTime,
+  /// the step includes it. Throws NumericalError if the step is not positive or too small to advance time.
   double next(const data::Minimum& stable, double nextOutput);
   /// A shorter time step [s] from the same time: the previous one times the factor `asked`, which is limited to 0.1 to
-  /// 0.9. Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to move
-  /// time on.
+  /// 0.9. Throws NumericalError if the step has already been repeated 20 times, or if the shorter step is below
+  /// delt_min or too small to advance time.
   double repeat(const data::Minimum& asked);
   /// Continues another run after `step` steps, the last of length `delT` [s], at `time` [s].
   void resume(int step, double time, double delT);
   /// Advances time by the step of `next` or `repeat`.
   void advance();
 
-  /// Whether a step may be repeated with half the time step because of an invalid value: if the scene requests it, and
-  /// `repeat` would not throw.
+  /// Whether a step may be repeated with half the time step because of an invalid value: if the scene requests this,
+  /// and `repeat` would not throw.
   bool mayHalve() const;
   /// Number of repetitions of the step in progress.
   int repeats() const { return repeats_; }
-  /// Steps that were undone and repeated so far.
+  /// Number of steps that have been undone and repeated so far.
   int retries() const { return retries_; }
   /// Number of steps determined by each limit: the reason of the stable step, a tag of the Time section, or the bound
   /// because of which the step was repeated.
   const std::map<data::Reason, int>& limits() const { return limits_; }
 
  private:
-  static constexpr int most_repeats_ = 20;  ///< of a step
+  static constexpr int most_repeats_ = 20;  ///< largest number of repetitions of a step
 
   void lower(double& dt, double most, const data::Reason& limit);
 
   TimeSettings settings_;
   double time_;
   double del_t_ = 0;
-  double target_ = 0;  ///< end of the step
+  double target_ = 0;  ///< time at the end of the step [s]
   int step_ = 0;
   int retries_ = 0, repeats_ = 0;
-  data::Reason limit_;  ///< limit that determines the step
+  data::Reason limit_;  ///< the limit that determines the step
   std::map<data::Reason, int> limits_;
 };
 
-/// Times that differ by less than this, relative to their size, are considered the same.
+/// Times whose difference, relative to their size, is smaller than this are considered equal.
 inline constexpr double timeResolution = 1e-12;
 
 /// The times start + k interval, k = 1, 2, …, which a run passes in turn.
 class Milestones {
  public:
-  /// An interval of 0 [s] means none.
+  /// An interval of 0 s means that there are no such times.
   Milestones(double start, double interval) : start_(start), interval_(interval) {}
 
-  /// The next such time, s; infinity if there are none.
+  /// The next of these times [s]; infinity if there are none.
   double next() const;
   bool isReached(double time) const;
-  /// Passes the times up to `time` [s].
+  /// Passes all of these times up to `time` [s].
   void pass(double time);
 
  private:
   double start_, interval_;
-  double passed_ = 0;  ///< number of times passed, a whole number
+  double passed_ = 0;  ///< number of times passed, an integer
 };
 
 }  // namespace tushar::simulation

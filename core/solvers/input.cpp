@@ -4,7 +4,7 @@ namespace tushar::solvers {
 
 namespace {
 
-/// Settings that a scene omits are taken from `defaults`.
+/// The schema of the tag; settings that a scene omits are taken from `defaults`.
 input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
   return input::Schema<LinearSettings>("Solver", "How linear systems are solved.")
       .choice("solver", &LinearSettings::solver,

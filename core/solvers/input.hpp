@@ -5,9 +5,9 @@
 
 namespace tushar::solvers {
 
-/// The tag `Solver`: how linear systems are solved. The defaults are for symmetric ones.
+/// The schema of the tag `Solver`, with settings for linear systems. The defaults suit symmetric systems.
 const input::Schema<LinearSettings>& linearSchema();
-/// The tags of the linear solves of Newton's method, whose tangents need not be symmetric.
+/// The schema of the tags for the linear systems in Newton's method, whose tangents need not be symmetric.
 const input::Schema<LinearSettings>& tangentSchema();
 
 }  // namespace tushar::solvers

@@ -9,18 +9,18 @@
 
 namespace tushar::solvers {
 
-/// Indices of the cells that a rank uses in a global system, as required by Unknowns: first its own cells, then those
-/// of other ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve, so
-/// that the patches do not matter.
+/// Indices of the cells that a rank uses in a global system, as required by Unknowns: its own cells come first,
+/// followed by those of other ranks. On a single rank, the order does not depend on the patches: it is lexicographic on
+/// one level, and follows the blocks along Morton's curve on several levels.
 class CellNumbering {
  public:
-  /// On one level, cells of other ranks that share a face with own ones are included from the start.
+  /// On one level, cells of other ranks that share a face with the rank's own cells are included from the start.
   explicit CellNumbering(const grid::Grid& grid);
 
   int owned() const { return owned_; }
-  /// The cells of other ranks, by their global indices.
+  /// The cells of other ranks, as global indices.
   const std::vector<int>& ghosts() const { return ghosts_; }
-  /// Adds a cell of a grid of several levels, or its image, to the cells that this rank uses.
+  /// Adds a cell of a grid of several levels, or its periodic image, to the cells that this rank uses.
   template <int D>
   void meet(int level, const Index<D>& image) {
     const std::uint64_t among = numberAmongAll(level, expanded(grid_->level(level).template wrapped<D>(image)));
@@ -42,7 +42,7 @@ class CellNumbering {
   }
 
  private:
-  /// Cells with consecutive numbers.
+  /// Cells with consecutive indices.
   struct Run {
     int level;
     grid::Box cells;
@@ -60,21 +60,21 @@ class CellNumbering {
     const auto found = numbers_.find(key);
     return found == numbers_.end() ? -1 : found->second;
   }
-  /// Numbers the own cells patch by patch, so that every rank can compute the indices of all cells.
+  /// Numbers this rank's cells patch by patch, so that every rank can compute the indices of all cells.
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
-  /// The global number of a cell on several levels: block by block on one rank, otherwise patch by patch. Throws
-  /// data::AccessError for one that is refined or part of a coarser one.
+  /// The global index of a cell on several levels: block by block on one rank, otherwise patch by patch. Throws
+  /// data::AccessError for a cell that is refined or part of a coarser cell.
   std::uint64_t numberAmongAll(int level, const Index3& cell) const;
   Run runAround(int level, const Index3& cell) const;
 
   const grid::Grid* grid_;
   int owned_ = 0;
-  std::uint64_t first_ = 0;  ///< global number of the first own cell, on several levels
+  std::uint64_t first_ = 0;  ///< global index of the first of this rank's cells, on several levels
   std::vector<int> ghosts_;
-  /// Indices, by the position of the cell; on several levels, only those of other ranks' cells, by their global index.
+  /// Indices by position of the cell; on several levels, only indices of other ranks' cells, by global index.
   std::unordered_map<std::uint64_t, int> numbers_;
-  mutable std::optional<Run> last_;  ///< the last run that was found
+  mutable std::optional<Run> last_;  ///< the run that was found last
 };
 
 }  // namespace tushar::solvers

@@ -7,7 +7,7 @@ namespace tushar::solvers {
 
 namespace {
 
-/// S^-1 times the vectors of a null space, orthonormalised.
+/// The vectors of a null space, multiplied by S^-1 and orthonormalised.
 std::vector<OwnedVec> motionsOver(Vec s, MatNullSpace space) {
   PetscBool hasConstant = PETSC_FALSE;
   PetscInt count = 0;
@@ -50,7 +50,7 @@ Balance::Balance(Vec b) {
   check(VecDuplicate(b, b_.address()));
 }
 
-/// s = (max |a| / |a_ii|)^(1/2); 1 if there is no diagonal.
+/// Chooses s = (max |a| / |a_ii|)^(1/2); 1 if there is no diagonal.
 void Balance::scale(PetscMatrix& matrix) {
   check(MatGetDiagonal(matrix, s_));
   check(VecAbs(s_));

@@ -6,10 +6,10 @@ namespace tushar::solvers {
 
 namespace {
 
-/// A point u - length step along a Newton step.
+/// A trial point u - length step along a Newton step.
 struct Trial {
   double length = 1;
-  double slope = 0;  ///< r . step at this point, the derivative of the energy along the step
+  double slope = 0;  ///< slope r . step at this point: the derivative of the energy along the step
   bool isFinite = false;
 };
 

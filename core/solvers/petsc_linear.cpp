@@ -9,7 +9,7 @@ namespace {
 
 constexpr double leastTolerance = 1e-15;
 
-/// The duration of `work`, s.
+/// The duration of `work` [s].
 template <class Work>
 double timed(Work&& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -17,7 +17,7 @@ double timed(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The row with the largest |b - A x| at the end.
+/// The row with the largest |b - A x|.
 int worstRow(Mat matrix, Vec b, Vec x) {
   OwnedVec residual;
   check(VecDuplicate(b, residual.address()));
@@ -44,7 +44,7 @@ void balance(Outcome& outcome, MatNullSpace free, Vec b) {
   check(MatNullSpaceRemove(free, b));
 }
 
-/// The tolerance for the ratio of the residual to |b|. What rounding leaves is not asked for.
+/// The tolerance for the ratio of the residual to |b|, never below the rounding error.
 double toleranceOf(const LinearProblem& problem, const LinearSettings& settings, Vec b) {
   PetscReal size = 0;
   check(VecNorm(b, NORM_2, &size));

@@ -12,7 +12,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
 
-/// The context of PETSc's callbacks.
+/// The data that PETSc's callbacks need.
 struct Newton {
   NonlinearProblem& problem;
   const NewtonSettings& settings;
@@ -36,7 +36,7 @@ PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
   });
 }
 
-/// Evaluates the tangent, and makes the preconditioner at once, so that its time can be measured.
+/// Evaluates the tangent, and then sets up the preconditioner immediately, so that the time for this can be measured.
 PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
   return guarded(newton.thrown, [&] {
@@ -64,8 +64,9 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
   return negligible;
 }
 
-/// |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is
-/// left of r after an iteration: before, a small load may be no more than rounding of a great stiffness, and is to act.
+/// Converged if |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration, or if only
+/// round-off is left of r after an iteration. Round-off is not tested before the first iteration, because a load may be
+/// as small as the round-off of a large stiffness, but must still act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);

@@ -12,7 +12,7 @@ namespace tushar::solvers {
 
 namespace {
 
-/// The message of the error that PETSc is about to return.
+/// The message of the last error in PETSc.
 std::string& lastMessage() {
   static std::string message;
   return message;
@@ -24,8 +24,8 @@ PetscErrorCode keepMessage(MPI_Comm, int, const char*, const char*, PetscErrorCo
   return code;
 }
 
-/// Preserves the program's reaction to SIGTERM, which is to end the run with written output: PETSc installs its own
-/// handler at the start, and restores the system's default at the end.
+/// Preserves the program's reaction to SIGTERM, which is to write output and end the run. PETSc installs its own
+/// handler when it starts, and restores the system's default when it ends.
 class KeptTermination {
  public:
   KeptTermination() { sigaction(SIGTERM, nullptr, &before_); }
@@ -37,7 +37,7 @@ class KeptTermination {
   struct sigaction before_ {};
 };
 
-/// The PETSc session, from the first solve to the end of the program.
+/// PETSc from the first solve to the end of the program.
 class Session {
  public:
   Session() {
@@ -171,7 +171,7 @@ void configure(KSP krylov, const LinearSettings& settings) {
   PC preconditioner = nullptr;
   check(KSPGetPC(krylov, &preconditioner));
   check(PCSetType(preconditioner, settings.preconditioner.c_str()));
-  // Later tangents of a solve have the same entries: which unknowns GAMG joins follows from the first.
+  // Later tangents of a solve have the same entries, so the first determines which unknowns GAMG aggregates.
   check(PCGAMGSetReuseInterpolation(preconditioner, PETSC_TRUE));
   check(KSPSetFromOptions(krylov));
 }

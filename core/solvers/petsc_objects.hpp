@@ -13,7 +13,7 @@
 
 namespace tushar::solvers {
 
-/// Throws std::runtime_error with PETSc's message if a call has failed.
+/// Throws std::runtime_error with PETSc's message if `code` reports a failure.
 void check(PetscErrorCode code);
 
 /// Initialises PETSc at the first call.
@@ -41,8 +41,8 @@ using OwnedSnes = Owned<SNES, SNESDestroy>;
 using OwnedNumbering = Owned<ISLocalToGlobalMapping, ISLocalToGlobalMappingDestroy>;
 using OwnedNullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
 
-/// The options of one solve, during the lifetime of this object: those of its settings, then those of PETSC_OPTIONS,
-/// which take precedence. Other solves do not see them.
+/// Sets the PETSc options of one solve while this object exists: the options in the settings of the solve, and those in
+/// PETSC_OPTIONS, which take precedence. Other solves do not see them.
 class PetscOptionsOfSolve {
  public:
   /// Initialises PETSc, if necessary.
@@ -51,7 +51,7 @@ class PetscOptionsOfSolve {
   PetscOptionsOfSolve& operator=(const PetscOptionsOfSolve&) = delete;
   ~PetscOptionsOfSolve();
 
-  /// Options so far that neither a solve nor the initialisation of PETSc has used.
+  /// Options that have not been used by any solve so far, nor by the initialisation of PETSc.
   static std::vector<std::string> unused();
 
  private:
@@ -68,7 +68,7 @@ class PetscMatrix : public Matrix {
   explicit PetscMatrix(const Unknowns& unknowns);
 
   void add(std::span<const int> rows, std::span<const int> columns, std::span<const double> values) override;
-  /// Empties the matrix, lets `fill` add to it, and completes it.
+  /// Empties the matrix, calls `fill` to add entries to it, and completes it.
   template <class Fill>
   void assemble(Fill&& fill) {
     check(MatZeroEntries(matrix_));
@@ -76,7 +76,7 @@ class PetscMatrix : public Matrix {
     check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   }
-  /// Scales A to S A S with the diagonal S, and the near-null space of multigrid accordingly.
+  /// Scales the matrix A to S A S, where S is diagonal, and scales the near-null space for multigrid accordingly.
   void scale(Vec s);
   operator Mat() const { return matrix_; }
 
@@ -86,15 +86,15 @@ class PetscMatrix : public Matrix {
 
   MPI_Comm ranks_;
   OwnedMat matrix_;
-  OwnedNullSpace rigid_;  ///< the motions without strain, for the matrix before scaling
+  OwnedNullSpace rigid_;  ///< the rigid-body modes, for the matrix before scaling
 };
 
-/// Solves A x = b as (S A S) y = S b, x = S y. S brings the diagonal to its greatest entry everywhere: unscaled, the
-/// residuals of weakly held unknowns would not show in the norm of all, and multigrid would move them so far under a
-/// force that its rounding would stall a Krylov method.
+/// Solves A x = b as (S A S) y = S b, x = S y, where S makes all diagonal entries equal to the largest. Without this
+/// scaling, the residuals of weakly held unknowns would not affect the norm, and multigrid would move these unknowns so
+/// far that its round-off would stall a Krylov method.
 class Balance {
  public:
-  /// For right-hand sides with the layout of `b`.
+  /// Constructs the scaling for right-hand sides with the layout of `b`.
   explicit Balance(Vec b);
   /// Chooses S and scales the matrix.
   void scale(PetscMatrix& matrix);
@@ -108,7 +108,7 @@ class Balance {
   OwnedVec s_, b_;
 };
 
-/// A PETSc vector over existing memory: the numbers of the owned unknowns.
+/// A PETSc vector that uses existing memory: the values of the owned unknowns.
 class PetscVector {
  public:
   PetscVector(const Unknowns& unknowns, std::span<double> values);
@@ -118,12 +118,12 @@ class PetscVector {
   OwnedVec vector_;
 };
 
-/// The part of a global vector that a rank uses: its own entries, then the ghosts.
+/// The part of a global vector that a rank uses: its own entries, followed by the ghosts.
 class GhostedVector {
  public:
   explicit GhostedVector(const Unknowns& unknowns);
   std::span<double> values() { return values_; }
-  /// Copies the values of `all` for own entries and ghosts.
+  /// Copies the values of own entries and ghosts from `all`.
   void take(Vec all);
   /// Adds the values of own entries and ghosts of every rank to `all`.
   void addUp(Vec all);
@@ -135,10 +135,10 @@ class GhostedVector {
   OwnedVec vector_;
 };
 
-/// Sets method, preconditioner and tolerances, then applies the options.
+/// Sets method, preconditioner and tolerances, and then applies the user's options.
 void configure(KSP krylov, const LinearSettings& settings);
 
-/// Runs `work`, called by PETSc; an exception is stored until PETSc has returned.
+/// Runs `work` inside a callback of PETSc; an exception is stored until PETSc has returned.
 template <class Work>
 PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
   try {
@@ -154,10 +154,10 @@ PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
 /// `context` is a std::exception_ptr.
 PetscErrorCode searchAlongStep(SNESLineSearch search, void* context);
 
-/// Why a solve ended, in words, and PETSc's name for the reason.
+/// The reason why a solve ended, in words, and PETSc's name for the reason.
 std::string reasonOf(KSPConvergedReason reason);
 std::string reasonOf(SNES snes);
-/// The residual norms that a Krylov method has recorded.
+/// The residual norms recorded by a Krylov method.
 std::vector<double> residualsOf(KSP krylov);
 
 /// Index of the unknown with the largest residual; -1 if another rank owns it.

@@ -8,13 +8,13 @@ namespace tushar::solvers {
 
 namespace {
 
-/// Every option given to a solve, and whether a solve has used it.
+/// Every option given to a solve, and whether any solve has used it.
 std::map<std::string, bool>& useOfOptions() {
   static std::map<std::string, bool> use;
   return use;
 }
 
-/// `-snes_rtol` is an option, `-1e-3` a value.
+/// Whether a word is an option: `-snes_rtol` is an option, `-1e-3` a value.
 bool isOption(const std::string& word) {
   return word.size() > 1 && word[0] == '-' && word.find_first_of("0123456789.") != 1;
 }

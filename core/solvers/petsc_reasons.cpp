@@ -2,7 +2,7 @@
 
 #include "core/solvers/petsc_objects.hpp"
 
-// Why solves end. A reason without words here keeps PETSc's.
+// Descriptions of the reasons why solves end. A reason that is not described here is shown by PETSc's name alone.
 
 namespace tushar::solvers {
 

@@ -14,7 +14,8 @@ inline constexpr data::ReductionLabel<data::Maximum> assemblyTime{"AssemblyTime"
                                                                   "time to fill the matrix of the last solve"};
 inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{
     "PreconditionerTime", "s", "time to build the preconditioner of the last solve"};
-inline constexpr data::ReductionLabel<data::Maximum> solveTime{"SolveTime", "s", "iterations of the last solve"};
+inline constexpr data::ReductionLabel<data::Maximum> solveTime{"SolveTime", "s",
+                                                               "time for the iterations of the last solve"};
 
 inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maximum& preconditioner,
                      data::Maximum& solve) {
@@ -23,15 +24,15 @@ inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maxi
   solve.add(outcome.solve);
 }
 
-/// The ratio of the final residual to the largest during the solve; 0 if there was none.
+/// The ratio of the final residual to the largest one during the solve; 0 if there was none.
 inline double remainderOf(const Outcome& outcome) {
   const double greatest =
       outcome.residuals.empty() ? 0 : *std::max_element(outcome.residuals.begin(), outcome.residuals.end());
   return greatest > 0 ? outcome.residuals.back() / greatest : 0;
 }
 
-/// The position of the largest residual, as the end of a sentence, on all ranks; `mine` [m] is the position on the rank
-/// that has it.
+/// Returns the position of the largest residual, as the end of a sentence, on all ranks. `mine` [m] is this position on
+/// the rank that owns the residual, and empty on the others.
 std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>& mine, const std::string& what);
 
 }  // namespace tushar::solvers

@@ -9,10 +9,10 @@
 
 namespace tushar::tasks {
 
-/// The patches of a rank, in the order of their ids.
+/// The patches of a rank, sorted by id.
 using RankPatches = std::vector<const grid::Patch*>;
 
-/// An access as an argument of a task: it declares the use of a variable, and becomes one parameter of the body.
+/// An access as an argument of a task: it declares the use of a variable, and corresponds to one parameter of the body.
 template <class Label, AccessKind Kind>
 struct FieldAccess;
 
@@ -22,8 +22,9 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   int ghost = 0;
   bool own = false;
   bool offered = false;
-  AccessKind kind = Kind;  ///< may be requiresNew although Kind is requiresOld, as both have the same type of view
-  int index = -1;          ///< index among the task's accesses
+  /// `Kind`, or requiresNew if `Kind` is requiresOld: both have the same type of view.
+  AccessKind kind = Kind;
+  int index = -1;  ///< index among the task's accesses
 
   void declare(std::vector<Access>& accesses) { index = append(accesses, {label, kind, ghost, own, offered}); }
   void number(int& next) { index = next++; }
@@ -64,15 +65,14 @@ struct PlainArgument {
   const T& bind(const TaskContext&) const { return value; }
 };
 
-/// For a task that runs once per rank: passes the communicator of the ranks that run it together, which are those with
-/// patches.
+/// For a task that runs once per rank: passes the communicator of all ranks with patches, which run the task together.
 struct RanksArgument {
   void declare(std::vector<Access>&) {}
   const mpi::Communicator& bind(const TaskContext& context) const { return context.ranks(); }
 };
 inline RanksArgument togetherOnRanks() { return {}; }
 
-/// The patches of a task that runs once per rank.
+/// The patches of a task that runs once per rank, sorted by id.
 RankPatches patchesOf(const TaskContext& context);
 
 /// Reads the state at the start of the step: a view of const T over the patch and `ghost` layers of cells or nodes
@@ -87,14 +87,14 @@ template <class R>
 FieldAccess<data::ReductionLabel<R>, AccessKind::requiresOld> requiresOld(const data::ReductionLabel<R>& label) {
   return {&label};
 }
-/// Reads values that an earlier task computed: a view of const T over the patch and `ghost` layers of cells or nodes
+/// Reads values computed by an earlier task: a view of const T over the patch and `ghost` layers of cells or nodes
 /// around it.
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresOld> requiresNew(const data::FieldLabel<C, T>& label,
                                                                          int ghost = 0) {
   return {&label, ghost, false, false, AccessKind::requiresNew};
 }
-/// Writes every value of the patch: a view of T. Values are undefined before (NaN in the dev preset).
+/// Writes every value of the patch: a view of T. The values are undefined before the task (NaN in the dev preset).
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::computes> computes(const data::FieldLabel<C, T>& label) {
   return {&label};
@@ -105,12 +105,12 @@ template <class T>
 FieldAccess<data::NodeLabel<T>, AccessKind::computes> computesOwn(const data::NodeLabel<T>& label) {
   return {&label, 0, true};
 }
-/// Contributes to a value for the whole grid: a reference to the reducer R.
+/// Contributes to a reduction over the whole grid: a reference to the reducer R.
 template <class R>
 FieldAccess<data::ReductionLabel<R>, AccessKind::computes> computes(const data::ReductionLabel<R>& label) {
   return {&label};
 }
-/// Changes values that an earlier task computed: a view of T.
+/// Changes values computed by an earlier task: a view of T.
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::modifies> modifies(const data::FieldLabel<C, T>& label) {
   return {&label};
@@ -155,8 +155,8 @@ struct OfferedAccess {
     return context.isWanted(access.index) ? std::optional(access.bind(context)) : std::nullopt;
   }
 };
-/// A costly output that only some scenes need: like `computes` if a later task, another list or the scene's outputs
-/// read it, otherwise not allocated. The body gets a std::optional view.
+/// Computes a costly output that only some scenes need: like `computes` if a later task, another list or the scene's
+/// outputs read it, otherwise not allocated. The body gets a std::optional view.
 template <data::Centring C, class T>
 OfferedAccess<FieldAccess<data::FieldLabel<C, T>, AccessKind::computes>> offers(const data::FieldLabel<C, T>& label) {
   return {{&label, 0, false, true}};
@@ -178,16 +178,16 @@ struct FluxAccess {
 };
 /// Stores the fluxes of a variable at faces where the level of the patch ends, so that the framework can make the
 /// fluxes of both levels equal. The body receives a RimFlux<T> and adds to it the amount of the variable that passes
-/// through each face, along the axis, per unit area and time. With a single level it is empty. It is meant for
-/// `computes` or `modifies` tasks of scheduleTimeAdvance whose change of a cell is dt times the difference of such
-/// fluxes over h.
+/// through each face, along the axis, per unit area and time. On a single level, the RimFlux is empty. Use this access
+/// in tasks of scheduleTimeAdvance that compute or modify the variable, and that change a cell by dt / h times the
+/// difference of such fluxes.
 template <class T>
 FluxAccess<T> keepsFlux(const data::CellLabel<T>& label) {
   static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) accepts only labels of real numbers");
   return {&label};
 }
 
-/// The time at the start of the step, s: a double.
+/// The time at the start of the step [s], passed as a double.
 struct TimeArgument {
   void declare(std::vector<Access>&) {}
   double bind(const TaskContext& context) const { return context.time(); }
@@ -212,13 +212,13 @@ inline constexpr bool isOfMaterialAndPatch<OfferedAccess<Access>> = isOfMaterial
 template <class T>
 inline constexpr bool isOfMaterialAndPatch<FluxAccess<T>> = true;
 
-/// Whether an argument represents a variable; others are plain values, such as that of `with`.
+/// Whether an argument represents a variable; other arguments are plain values, such as that of `with`.
 template <class Argument>
 inline constexpr bool isOfLabel = isOfMaterialAndPatch<Argument>;
 template <class R, AccessKind Kind>
 inline constexpr bool isOfLabel<FieldAccess<data::ReductionLabel<R>, Kind>> = true;
 
-/// An access to a variable that belongs to no material, for tasks of materials.
+/// An access to a variable that does not belong to a material, in a task over materials.
 template <class Argument>
 struct WithoutMaterial {
   Argument argument;
@@ -234,8 +234,8 @@ struct WithoutMaterial {
   }
   decltype(auto) bind(const TaskContext& context) const { return argument.bind(context); }
 };
-/// In a task over materials, represents a variable that belongs to none of them: the body gets a single view, or a
-/// single group. perMaterial may only read such variables.
+/// In a task over materials, marks a variable that belongs to none of them: the body gets a single view, or a single
+/// group. perMaterial may only read such variables.
 template <class Argument>
 WithoutMaterial<Argument> withoutMaterial(Argument argument) {
   static_assert(isOfMaterialAndPatch<Argument>, "withoutMaterial(...) accepts only an access to a variable of a patch");
@@ -246,7 +246,7 @@ inline constexpr bool isWithoutMaterial = false;
 template <class Argument>
 inline constexpr bool isWithoutMaterial<WithoutMaterial<Argument>> = true;
 
-/// Whether an argument is allowed only in tasks that make particles, or that run once per rank.
+/// Whether an argument is allowed only in tasks that make particles or that run once per rank.
 template <class Argument>
 inline constexpr bool isCreation = false;
 template <class Label>
@@ -254,7 +254,7 @@ inline constexpr bool isCreation<FieldAccess<Label, AccessKind::creates>> = true
 template <class Argument>
 inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument>;
 
-/// The results of `bind` for each of `contexts`.
+/// The results of calling `bind` for each element of `contexts`.
 template <class Contexts, class Bind>
 auto bindEach(const Contexts& contexts, Bind bind) {
   std::vector<std::decay_t<decltype(bind(contexts[0]))>> views;

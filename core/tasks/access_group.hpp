@@ -32,7 +32,7 @@ struct Blank<data::GridView<C, T>> {
   static data::GridView<C, T> make() { return {nullptr, grid::Box{}}; }
 };
 
-/// Declares the accesses of a group, in their order. `makesParticles`: for a task of `newParticles`.
+/// Declares the accesses of a group in order. `makesParticles`: for a task of `newParticles`.
 template <bool makesParticles>
 class DeclareEach {
  public:
@@ -53,7 +53,7 @@ class DeclareEach {
   std::vector<Access>* accesses_;
 };
 
-/// Returns the views of the same accesses, in the same order.
+/// Returns the views of the same accesses in the same order.
 class BindEach {
  public:
   BindEach(const TaskContext& context, int first) : context_(&context), next_(first) {}
@@ -100,11 +100,12 @@ auto groupMaker(Settings&... settings) {
   return [... each = std::move(settings)](auto& take) -> Group { return Group::from(take, each...); };
 }
 
-/// Accesses that the body gets as one `Group`: an aggregate of views whose `static Group from(auto& take, const
+/// Accesses that the body receives as one `Group`: an aggregate of views whose `static Group from(auto& take, const
 /// Settings&... settings)` gives each member its access by designated initialisers, `.mass =
-/// take(requiresOld(p::mass))`. For bodies that touch more than about eight variables. Groups nest: `.particles =
-/// Placed<Shape>::from(take, settings)`. A task that sees several materials or patches gets a std::vector<Group>. An
-/// access keeps the address of its label, so a label among the settings is passed by pointer.
+/// take(requiresOld(p::mass))`. Recommended for bodies that use more than about eight variables. Groups can be nested:
+/// `.particles = Placed<Shape>::from(take, settings)`. A task for several materials or patches receives a
+/// std::vector<Group>. An access stores the address of its label, so a label among the settings must be passed by
+/// pointer.
 template <class Group, class... Settings>
 auto all(Settings... settings) {
   static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to all<Group>(...) by pointer");
@@ -112,8 +113,8 @@ auto all(Settings... settings) {
   return GroupArgument<Group, decltype(from)>{std::move(from)};
 }
 
-/// Reducers that the body gets as one `Group` of references. Totals belong to no patch and no material: the body gets
-/// one group whichever of them its task sees.
+/// Reducers that the body receives as one `Group` of references. Totals belong to no patch and no material, so the body
+/// gets only one group, even in a task for several materials or patches.
 template <class Group, class... Settings>
 auto totals(Settings... settings) {
   static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to totals<Group>(...) by pointer");

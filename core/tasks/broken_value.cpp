@@ -48,7 +48,7 @@ bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch
 
 bool isOfLevel(const Patch& patch, int level) { return level < 0 || patch.level().number() == level; }
 
-/// `0.3`, or `(0.3, 0.1)`.
+/// Numbers as text: `0.3`, or `(0.3, 0.1)`.
 std::string textOf(const double* numbers, int count) {
   std::string text;
   for (int k = 0; k < count; ++k)
@@ -56,13 +56,13 @@ std::string textOf(const double* numbers, int count) {
   return count == 1 ? text : "(" + text + ")";
 }
 
-/// The order of values: by index of the cell or node, then by id.
+/// The order in which values are compared: by index of the cell or node, then by id.
 using Order = std::array<std::uint64_t, 2>;
 
 /// The result of a search through all values of a variable.
 struct Found {
   long seen = 0, broken = 0;
-  Order first{};  ///< position of the first invalid value
+  Order first{};  ///< position in the order of the first invalid value
   int patch = 0;
   Index3 at;
 
@@ -112,8 +112,9 @@ class Search {
   std::size_t gridPlace(int patch, const Index3& at) const {
     return warehouse_.variable(Generation::fresh, written_.variable, patch).stored.offset(at);
   }
-  /// The patch that a cell, or the node at its lower corner, belongs to. Where other levels are behind a node, it is
-  /// that of one of the cells before it; its number is -1 if there is none.
+  /// The patch to which a cell, or the node at its lower corner, belongs. If the cell at the upper side of the node is
+  /// on another level, returns the patch of one of the cells at its lower sides, or a patch with index -1 if there is
+  /// none.
   Patch ownerOf(Index3 at, const Level& level) const {
     for (int d = 0; d < 3; ++d) at[d] = std::min(at[d], level.cells().upper[d] - 1);
     for (int corner = 0; isNode() && corner < 1 << level.dimension(); ++corner) {
@@ -125,10 +126,10 @@ class Search {
   }
   bool isNode() const { return label_.centring == Centring::node; }
   Box boxOf(const Level& level) const { return isNode() ? level.nodes() : level.cells(); }
-  /// The level of the invalid value.
+  /// The level of the first invalid value.
   const Level& level() const { return grid_.patch(found_.patch).level(); }
 
-  /// Checks the values at one place; counts the invalid ones, and keeps the first.
+  /// Checks the values at one position; counts the invalid ones, and records the first.
   void look(const double* values, const Order& order, int patch, const Index3& at, std::size_t place) {
     ++found_.seen;
     if (holds(bound_, values, static_cast<std::size_t>(label_.components))) return;
@@ -158,7 +159,7 @@ class Search {
     });
   }
 
-  /// Broadcasts the text of the one rank that passes a text; the others pass an empty one. Collective.
+  /// Broadcasts the text of the only rank that passes one; the other ranks pass empty texts. Collective.
   std::string said(const std::string& mine) const {
     if (warehouse_.ranks().isAlone()) return mine;
     for (const std::string& text : warehouse_.ranks().gather(mine))
@@ -182,7 +183,7 @@ class Search {
                        found_.broken == 1 ? "is" : "are");
   }
 
-  /// The value of the particle at the start of the step, and its position then; empty for a new particle.
+  /// The value of the particle at the start of the step, and its position at that time; empty for a new particle.
   std::string particleBefore(ParticleId id) const {
     if (!wasHeld()) return "";
     for (const Patch& patch : grid_.patches())
@@ -198,7 +199,7 @@ class Search {
                       place_ * static_cast<std::size_t>(grid_.dimension());
     return fmt::format(" at x = {} m", textOf(x, grid_.dimension()));
   }
-  /// Up to four values in a cell, without that of the particle itself.
+  /// Up to four values of particles in a cell, except the particle itself.
   std::string valuesIn(const Index3& cell) const {
     const int patch = grid_.patchOf(cell, level().number()).id();
     if (!grid_.isMine(patch)) return "";
@@ -261,11 +262,11 @@ class Search {
   const Grid& grid_;
   Bounded written_;
   Bound bound_;
-  int of_level_;  ///< -1: any level
+  int of_level_;  ///< the level to check; -1: all levels
   const Label& label_;
   int material_;
   Found found_;
-  std::size_t place_ = 0;  ///< index in memory, on the rank that has it
+  std::size_t place_ = 0;  ///< index of the value in memory, on the rank that has it
 };
 
 }  // namespace

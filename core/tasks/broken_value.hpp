@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// A variable that a task writes, and whose numbers must satisfy the bound of its label.
+/// A variable that a task writes and whose values must satisfy the bound of its label.
 struct Bounded {
   int variable;
   data::Generation set;  ///< the particle set to which the values belong after the task
@@ -18,10 +18,10 @@ struct Bounded {
 bool keepsBounds(data::Warehouse& warehouse, const std::vector<Bounded>& written, const grid::Patch& patch);
 
 /// The index in `written` of the first variable that violates its bound on some patch of this rank; the size of
-/// `written` if none does. With a level only its patches count.
+/// `written` if none does. If a level is given, only its patches count.
 std::size_t firstThatBreaks(data::Warehouse& warehouse, const std::vector<Bounded>& written, int level = -1);
 
-/// A value that violates its bound, in words.
+/// A description of a value that violates its bound.
 struct BrokenValue {
   std::string label;
   int patch;
@@ -29,15 +29,16 @@ struct BrokenValue {
       sentence;  ///< value, bound, particle, cell, position, previous value, values around it, number of invalid values
 };
 
-/// The first value written by a task that violates its bound, in the order of variables, cells and ids, which does not
-/// depend on the layout. None if all bounds hold. With a level only its patches count. Collective.
+/// Finds the first value that violates its bound among the values that a task has written, in the order of variables,
+/// cells and ids, which does not depend on the layout. None if all bounds hold. If a level is given, only its patches
+/// count. Collective.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const std::vector<Bounded>& written, int level = -1);
 
-/// The first value of one variable that violates `bound`, which need not be the bound of its label.
+/// The first value of one variable that violates `bound`, which may differ from the bound of its label.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const Bounded& written, data::Bound bound,
                                        int level = -1);
 
-/// `cell (3, 4)`, or `node (3, 4)`.
+/// The name of a position: `cell (3, 4)`, or `node (3, 4)`.
 std::string nameOf(const grid::Level& level, const Index3& at, const char* what = "cell");
 
 }  // namespace tushar::tasks

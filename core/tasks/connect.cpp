@@ -24,7 +24,7 @@ class Connector {
   std::vector<Dependency> take() { return std::move(dependencies_); }
 
  private:
-  /// Notes that a task moves every particle variable because it changes the particle set.
+  /// Records that a task moves all particle variables because it changes the particle set.
   void touchAllParticles(int task) {
     for (auto& [label, usage] : usages_)
       if (label.starts_with("p.")) write(task, label);

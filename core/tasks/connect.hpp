@@ -6,7 +6,7 @@
 
 namespace tushar::tasks {
 
-/// Task `before` must precede task `after`, because of `label`.
+/// Task `before` must precede task `after` because of the variable `label`.
 struct Dependency {
   int before, after;
   std::string label;

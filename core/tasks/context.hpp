@@ -13,13 +13,13 @@
 
 namespace tushar::tasks {
 
-/// A declared access of a placed task: its variable, and the set whose slots its particles are in.
+/// A declared access of a placed task: its variable, and the particle set that determines where its values are.
 struct BoundAccess {
-  int variable = -1;  ///< -1 for an omitted offered output
+  int variable = -1;  ///< index of the variable; -1 for an omitted offered output
   data::Generation generation = data::Generation::fresh;
   data::Generation set = data::Generation::old;  ///< the particle set to which the values belong
   int ghost = 0;
-  bool own = false;  ///< for nodes: whether only those owned by the patch are used
+  bool own = false;  ///< for nodes: whether only those that the patch owns are written
 };
 
 /// Everything that a task body may access on one patch, for one material.
@@ -30,17 +30,17 @@ class TaskContext {
       : warehouse_(&warehouse), patch_(&patch), material_(material), accesses_(&accesses), time_(time), maker_(maker) {}
 
   const grid::Patch& patch() const { return *patch_; }
-  /// Time at the start of the step, s.
+  /// Time at the start of the step [s].
   double time() const { return time_; }
   int material() const { return material_; }
   ParticleMaker& maker() const { return *maker_; }
-  /// For a task over all materials: the contexts of each material on the patch.
+  /// For a task over all materials: the context of each material on the patch.
   std::span<const TaskContext> ofMaterials() const { return of_materials_; }
   void setMaterials(std::span<const TaskContext> contexts) { of_materials_ = contexts; }
-  /// For a task that runs once per rank: the contexts of its patches, in the order of their ids.
+  /// For a task that runs once per rank: the contexts of its patches, sorted by id.
   std::span<const TaskContext> ofPatches() const { return of_patches_; }
   void setPatches(std::span<const TaskContext> contexts) { of_patches_ = contexts; }
-  /// The ranks that run such a task together.
+  /// For a task that runs once per rank: the ranks that run it together.
   const mpi::Communicator& ranks() const { return *ranks_; }
   void setRanks(const mpi::Communicator& ranks) { ranks_ = &ranks; }
 
@@ -53,9 +53,9 @@ class TaskContext {
     return {reinterpret_cast<T*>(place.values), *place.set, place.cells, &label};
   }
 
-  /// The address of an access's values, of any type.
+  /// The address of the values of an access, of any type.
   data::Variable variable(int access) const;
-  /// The faces at which the patch meets other levels.
+  /// The faces at which the patch meets patches of other levels.
   const std::vector<grid::RimPiece>& rims() const { return warehouse_->grid().rims(patch_->id()); }
   /// The cells of the patch that regridding has just refined.
   const std::vector<grid::Box>& newCells() const { return warehouse_->grid().newCells(patch_->id()); }
@@ -75,7 +75,7 @@ class TaskContext {
   const R& reduction(int access) const {
     return warehouse_->reduction<R>((*accesses_)[access].variable);
   }
-  /// The contribution of the patch to the reduction.
+  /// This patch's contribution to a reduction.
   template <class R>
   R& partOfReduction(int access) const {
     return warehouse_->partOfReduction<R>((*accesses_)[access].variable, patch_->id());
@@ -87,7 +87,7 @@ class TaskContext {
   }
 
  private:
-  /// The parts of a view that do not depend on the type of its values, for particles and for nodes or cells.
+  /// The parts of a view that do not depend on the type of its values: for particles, and for nodes or cells.
   struct ParticlePlace {
     std::byte* values;
     const data::ParticleSet* set;

@@ -69,7 +69,8 @@ void Exchange::begin(bool hasStopped) {
   fillFromHere();
 }
 
-/// Finds the nodes near particles. Runs before the exchange resolves ghosts, as the nodes were computed without these.
+/// Finds the nodes near particles. Must run before the exchange determines ghost particles, because the nodes were
+/// computed without them.
 void Exchange::settleNear() {
   for (const BoundGhostFill& fill : fills_)
     if (isNear(fill)) near_.settle(fill.set, warehouse_->table()[fill.variable].material);
@@ -110,7 +111,8 @@ void Exchange::forEach(const Work& work) {
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
-/// Fills ghosts from this rank. All patches resolve theirs at once; copies then get their places one after the other.
+/// Fills ghosts from this rank. All patches determine their ghost particles in parallel; then copies get their indices
+/// patch by patch.
 void Exchange::fillFromHere() {
   for (std::size_t k = 0; k < fills_.size(); ++k)
     if (resolves_[k]) linkLocalGhosts(fills_[k]);
@@ -118,7 +120,7 @@ void Exchange::fillFromHere() {
     if (resolves_[k]) placeGhostCopies(fills_[k], nullptr);
   for (const BoundGhostFill& fill : fills_)
     if (fill.particles) reserveCopies(fill);
-  const bool copies = warehouse_->grid().level().isPeriodic();  // else particles of this rank stand where they are
+  const bool copies = warehouse_->grid().level().isPeriodic();  // otherwise particles of this rank are read in place
   if (!copies && std::all_of(fills_.begin(), fills_.end(), [](const BoundGhostFill& fill) { return fill.particles; }))
     return;
   forEach([&](const BoundGhostFill& fill, const Patch& patch, std::size_t place) {
@@ -131,8 +133,8 @@ void Exchange::fillFromHere() {
   });
 }
 
-/// Notes which sets are unresolved. A set is resolved on all patches of all ranks or on none, so sets resolved by a
-/// stopped graph are discarded.
+/// Records for which particle sets the ghosts have not been determined yet. They are determined on all patches of all
+/// ranks or on none, so ghosts determined by a graph that has stopped are discarded.
 void Exchange::noteUnresolved() {
   resolves_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;
@@ -213,8 +215,8 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
     copyCells(copy.box, copy.shift, label.bytes, from, to);
 }
 
-/// Fills ghosts in coarser cells, once these are complete. If there are messages, all ghosts that the patch gets from
-/// other ranks.
+/// Interpolates ghosts in coarser cells once the values of these cells are complete. If `messages` is given, also fills
+/// all other ghosts that the patch gets from other ranks.
 void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages) {
   const GhostPlan& plan = planOf(fill);
   const std::vector<CoarseGhosts>& parts = plan.coarse[place];

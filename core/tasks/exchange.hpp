@@ -39,42 +39,47 @@ class FilledValues {
 
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
 ///
-/// For a task one message goes to each neighbouring rank, with all that it needs for that task, as soon as the last of
-/// that has been computed; other tasks run meanwhile. Before the task patches fill their ghosts from one another, and
-/// those that need nothing of other ranks may be worked on while messages are still on their way.
+/// Before a task that needs ghosts, each rank sends one message to each neighbouring rank, with all values that this
+/// neighbour needs for the task. The messages are sent as soon as the last of these values has been computed; other
+/// tasks run meanwhile. Just before the task, the patches of a rank fill their ghosts from one another. Patches that
+/// need nothing from other ranks may then run while messages are still on their way.
+///
+/// An exchange has three parts: send(), begin() and finish(). All ranks call them for the same fills in the same order,
+/// and complete one exchange before they begin the next. The first fill that needs ghost particles determines which
+/// particles are ghosts.
 class Exchange {
  public:
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()), near_(warehouse, threads) {}
 
-  /// Fills the ghosts of variables in three parts; the set of ghost particles is determined on its first use. All ranks
-  /// run them for the same fills in the same order, all three of one before the next.
-  ///
-  /// From now on only patches of a level get ghosts, from coarser cells as they are at a part of their step; -1: those
-  /// of all levels, from old values.
+  /// Restricts later exchanges to ghosts of the patches of `level`; values in coarser cells are interpolated in time to
+  /// the fraction `part` of the coarser step. -1: patches of all levels get ghosts, from old values.
   void setLevel(int level, double part) {
     level_ = level;
     part_ = part;
   }
-  /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
+  /// Sends this rank's messages. If a task has failed on this rank (`hasStopped`), they contain a notice of this
+  /// instead of values.
   void send(std::span<const BoundGhostFill> fills, bool hasStopped);
-  /// Sends messages, and fills the ghosts that need no messages from other ranks, unless a task has failed.
+  /// Determines from which ranks messages are awaited and, unless a task has failed, fills the ghosts that need no
+  /// messages.
   void begin(bool hasStopped);
-  /// Waits for the messages of other ranks, and fills the remaining ghosts. False if another rank has stopped; then
-  /// nothing more is filled, and this rank must stop too, before it reads values that are missing.
+  /// Waits for the messages of other ranks, and fills the remaining ghosts. Returns false if another rank has stopped;
+  /// then nothing more is filled, and this rank must stop too, before it reads missing values.
   bool finish();
   /// Whether no patch has ghosts at all, so that there is nothing to exchange.
   bool movesNothing() const;
-  /// Between begin and finish: whether there are messages to wait for.
+  /// Between begin and finish: whether messages are still awaited.
   bool isUnderWay() const { return !senders_.empty(); }
-  /// Between begin and finish: whether the patch with this index on the rank has all its ghosts.
+  /// Between begin and finish: whether the patch with this index on the rank has received all its ghosts.
   bool isReady(std::size_t place);
   /// Copies the new values of a node variable between patches of this rank, from owners to patches that share the node;
   /// `set` contains the particles near which the values are defined, if this matters.
   void shareFaces(int variable, data::Generation set);
-  /// Must be called when a list begins, and after tasks that change particles.
+  /// Forgets which nodes are near particles. Must be called when a task list begins, and after tasks that change
+  /// particles.
   void forgetParticles() { near_.forget(); }
-  /// Must be called when the distribution of patches has changed.
+  /// Forgets all plans. Must be called when the distribution of patches has changed.
   void forgetLayout() {
     plans_.forget();
     faces_.clear();
@@ -83,7 +88,7 @@ class Exchange {
 
  private:
   void post(bool hasStopped);
-  /// The copies between patches of this rank.
+  /// Makes the copies between patches of this rank.
   void fillFromHere();
   void fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages);
   void copyGrid(const BoundGhostFill& fill, const GhostCopy& copy, const FilledValues& values);
@@ -105,7 +110,7 @@ class Exchange {
   void fillCopies(const BoundGhostFill& fill, const grid::Patch& patch, ReceivedMessages* messages);
   bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
   void noteUnresolved();
-  /// Calls `work(fill, patch, its index)` on several threads at once.
+  /// Calls `work(fill, patch, index of the patch)` on several threads in parallel.
   template <class Work>
   void forEach(const Work& work);
   void findPlans();
@@ -117,7 +122,7 @@ class Exchange {
   mpi::Outbox outbox_;
   NearRows near_;
   GhostPlans plans_;
-  std::vector<std::vector<GhostCopy>> faces_;  ///< by index of the patch on this rank; planned on first use
+  std::vector<std::vector<GhostCopy>> faces_;  ///< copies for each patch of this rank; planned on first use
   int level_ = -1;
   double part_ = 0;
   // The exchange that was sent:
@@ -125,7 +130,7 @@ class Exchange {
   std::vector<const GhostPlan*> plans_of_fills_;
   bool has_stopped_ = false;
   std::set<int> senders_;       ///< ranks whose messages are awaited
-  std::vector<bool> resolves_;  ///< by fill: whether it determines which particles are ghosts
+  std::vector<bool> resolves_;  ///< for each fill: whether it determines which particles are ghosts
 };
 
 }  // namespace tushar::tasks

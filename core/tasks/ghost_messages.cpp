@@ -12,7 +12,7 @@ using data::Variable;
 
 namespace {
 
-/// A row of nodes, or the particles of a cell, in a message: their position and number.
+/// A row of nodes, or the particles of a cell, in a message: their position and their number.
 struct PackedRun {
   Index3 first;
   std::int32_t count;
@@ -65,7 +65,7 @@ bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const
 void Packer::addGrid(const GhostCopy& copy) {
   const Variable from = variable(copy.from);
   const std::size_t bytes = name_.label->bytes;
-  mpi::Bytes values;  // in a message values stand at any byte: numbers are made elsewhere
+  mpi::Bytes values;  // values in a message need not be aligned, so numbers are computed here first
   if (computeValues(warehouse_, fill_, copy, part_, values)) return mpi::append(message_, values.data(), values.size());
   forEachRowOf(copy.box.shifted(Index3{} - copy.shift), bytes, [&](const Index3& first, std::size_t length) {
     mpi::append(message_, valueAt(from, first, bytes), length);
@@ -102,7 +102,7 @@ void Packer::addCounts(const GhostCopy& copy) {
 void Packer::addParticles(const GhostCopy& copy) {
   const Variable from = variable(copy.from);
   const std::size_t bytes = name_.label->bytes;
-  ParticleRange run;  // of cells that follow each other in memory
+  ParticleRange run;  // of cells that are consecutive in memory
   const auto appendRun = [&] {
     mpi::append(message_, from.values + static_cast<std::size_t>(run.first) * bytes,
                 static_cast<std::size_t>(run.size()) * bytes);

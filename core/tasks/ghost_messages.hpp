@@ -12,15 +12,15 @@
 
 namespace tushar::tasks {
 
-/// One ghost fill of a variable, by the index of the variable.
+/// One ghost fill of a variable, which is given by its index.
 struct BoundGhostFill {
   int variable;
   data::Generation generation;
-  data::Generation set;  ///< the particle set to which the values belong, or near which nodes are
+  data::Generation set;  ///< the particle set to which the values belong, or near whose particles the nodes are
   bool particles;
 };
 
-/// Calls `visit(first, length)` for each row of a box along the first axis, its length in bytes.
+/// Calls `visit(first, length)` for each row of a box along the first axis; `length` is its size [bytes].
 template <class Visit>
 void forEachRowOf(const grid::Box& box, std::size_t bytes, Visit&& visit) {
   const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
@@ -33,9 +33,10 @@ std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes)
   return values.values + values.stored.offset(place) * bytes;
 }
 
-/// Computes the values of a copy, one after the other, unless they are those of `copy.from`: means of finer cells, or
-/// values of coarser cells within their step, old + part (new - old), which lie between old and new for real numbers.
-/// Returns whether it has computed them.
+/// Computes the values of a copy if they differ from those of `copy.from`: means of finer cells, or values of coarser
+/// cells at a time within their step, old + part (new - old), limited to the range between old and new. Writes them to
+/// `values` one after the other. Returns false, and computes nothing, if the values of `copy.from` are to be copied
+/// unchanged.
 bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const GhostCopy& copy, double part,
                    mpi::Bytes& values);
 
@@ -47,9 +48,10 @@ class Packer {
       : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), part_(part), message_(message) {}
 
   void addGrid(const GhostCopy& copy);
-  /// Packs only rows of nodes near particles: their number, and the position, length and values of each.
+  /// Packs only rows of nodes near particles: the number of rows, and the position, length and values of each.
   void addNear(const GhostCopy& copy, const data::TouchedRows& rows);
-  /// Packs the numbers of particles: the number of cells that contain any, and the position and number for each.
+  /// Packs the numbers of particles: the number of cells that contain any, and the position and number of particles of
+  /// each.
   void addCounts(const GhostCopy& copy);
   void addParticles(const GhostCopy& copy);
 
@@ -65,7 +67,7 @@ class Packer {
   mpi::Bytes& message_;
 };
 
-/// The messages of other ranks, which are read from front to back.
+/// The messages of other ranks, read from front to back.
 class ReceivedMessages {
  public:
   void add(int from, mpi::Bytes bytes) { messages_[from] = {std::move(bytes), 0}; }

@@ -23,8 +23,8 @@ void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
   }
 }
 
-/// The nodes that other patches copy from a patch: a node between patches comes from the upper one. On an image the
-/// last node of a periodic axis is left to the next image.
+/// The nodes that other patches copy from a patch; a node on a face between patches is copied from the upper patch. The
+/// last node of a periodic image along the axis is copied from the next image.
 Box nodesGiven(const Patch& patch, const Index3& shift) {
   const Level& level = patch.level();
   Box nodes = patch.nodes();
@@ -35,8 +35,8 @@ Box nodesGiven(const Patch& patch, const Index3& shift) {
   return nodes;
 }
 
-/// The largest distance from a patch, in its cells, of the values that it exchanges for ghosts of a width. Where there
-/// are levels: twice the width for a coarser neighbour, and two coarse cells for slopes.
+/// The largest distance, in cells of the patch, over which a patch exchanges values for ghosts of a given width. On
+/// several levels, this is twice the width, because the neighbour may be coarser, plus two coarse cells for slopes.
 int neighbourhoodOf(const Grid& grid, const GhostReach& reach) {
   if (grid.levels() > 1) return 2 * reach.width + 4;
   return reach.width + (reach.centring == data::Centring::node ? 1 : 0);
@@ -82,8 +82,8 @@ class PlannerOfPatch {
   void addSameLevel() {
     const Box own = isNode_ ? patch_.nodes() : patch_.cells();
     const Box wanted = isNode_ ? patch_.nodesWithin(reach_.width) : patch_.cellsWithin(reach_.width);
-    // The last node of a periodic axis is the image of the first, with other rounding: a node of the grid is never
-    // taken from an image, whatever the patches.
+    // The last node along a periodic axis is the image of the first, but with different rounding. A node of the grid is
+    // therefore never taken from an image, whatever the patches are.
     const Box all = isNode_ ? level_.nodes() : level_.cells();
     grid_.forEachOverlapping(
         level_, patch_.cellsWithin(reach_.width + (isNode_ ? 1 : 0)), [&](const Patch& other, const Index3& shift) {
@@ -97,7 +97,7 @@ class PlannerOfPatch {
         });
   }
 
-  /// Adds copies of means, for the refined cells in a box of a level, except for those in a hole.
+  /// Adds copies of means for the refined cells in a box of a level, except for those in a hole.
   void addMeans(const Level& level, const Box& wanted, const Box& hole, int coarseCells) {
     if (level.number() + 1 == grid_.levels()) return;
     const int dimension = level.dimension();
@@ -110,7 +110,7 @@ class PlannerOfPatch {
         });
   }
 
-  /// Adds ghosts in coarser cells, and copies of these cells and their neighbours.
+  /// Adds ghosts that lie in coarser cells, and copies of these cells and their neighbours.
   void addCoarse() {
     if (level_.number() == 0) return;
     const Level& below = grid_.level(level_.number() - 1);
@@ -212,7 +212,7 @@ std::vector<std::vector<GhostCopy>> planFaces(const Grid& grid) {
 const GhostPlan& GhostPlans::of(const grid::Grid& grid, GhostReach reach) {
   const bool isAsForCells = reach.centring == data::Centring::particle && grid.levels() == 1;
   if (isAsForCells) reach.centring = data::Centring::cell;
-  if (grid.share().ranks == 1) reach.level = -1;  // without messages, a plan of all levels serves for each
+  if (grid.share().ranks == 1) reach.level = -1;  // without messages, the plan for all levels serves each
   const auto [plan, isNew] = plans_.try_emplace(reach);
   if (isNew) plan->second = planGhosts(grid, reach);
   return plan->second;

@@ -15,8 +15,8 @@ bool isHeld(data::Warehouse& warehouse, data::Generation generation, int variabl
 std::span<std::byte> valuesOn(data::Warehouse& warehouse, data::Generation generation, int variable,
                               const grid::Patch& patch);
 
-/// Copies of the old values of cell variables on all levels except the coarsest, from the time of construction, because
-/// they are overwritten during the step of the coarsest level.
+/// Copies of the old values of cell variables on all levels except the coarsest. The constructor makes them, because
+/// the step of the coarsest level overwrites the originals.
 class KeptLevels {
  public:
   KeptLevels(data::Warehouse& warehouse, const std::vector<int>& variables);
@@ -28,7 +28,7 @@ class KeptLevels {
   void forEach(const Visit& visit) const;
 
   data::Warehouse* warehouse_;
-  std::vector<int> variables_;  ///< variables with old values
+  std::vector<int> variables_;  ///< indices of the variables with old values
   std::vector<std::byte> kept_;
 };
 

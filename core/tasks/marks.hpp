@@ -9,12 +9,13 @@ namespace tushar::tasks {
 /// Marks of cells: 0: none, 1: do not coarsen, 2: refine.
 inline constexpr data::CellLabel<int> refinementMark{"c.refinementMark", "1", "marks of the refinement criteria"};
 
-/// Sets the refinement marks of a patch. If several criteria mark a cell, the finest counts.
+/// Sets the refinement marks of a patch. If several criteria mark a cell, the one that requires the finest cells
+/// counts.
 class Marks {
  public:
   explicit Marks(const data::CellView<int>& marks) : marks_(marks) {}
 
-  /// Marks a cell to be refined.
+  /// Marks a cell for refinement.
   template <int D>
   void refine(const Index<D>& cell) const {
     marks_[cell] = 2;

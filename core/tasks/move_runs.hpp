@@ -7,7 +7,7 @@
 
 namespace tushar::tasks {
 
-/// Copies one value; optimised for one, two, three, four, six and nine numbers, the most frequent sizes.
+/// Copies one value; optimised for values of one, two, three, four, six and nine numbers, the most frequent sizes.
 inline void copyValue(const std::byte* from, std::byte* to, std::size_t bytes) {
   constexpr std::size_t number = sizeof(double);
   switch (bytes) {
@@ -46,9 +46,9 @@ inline void moveRun(const Run& run, const std::byte* from, std::byte* to, std::s
     std::memmove(to, from, static_cast<std::size_t>(run.count) * bytes);
 }
 
-/// Moves runs of elements of `bytes` bytes, possibly within the same memory: runs that move up are processed from the
-/// last to the first, so that none is overwritten before it has been moved. Runs keep their order, so that one that
-/// goes down is never in the way of one that goes up.
+/// Moves runs of elements of `bytes` bytes, possibly within the same memory. Runs that move up are processed from the
+/// last to the first, so that none is overwritten before it has been moved. The order of runs is preserved, so runs
+/// that move down never overlap runs that move up.
 template <class Run>
 void moveRuns(const std::vector<Run>& runs, const std::byte* from, std::byte* to, std::size_t bytes) {
   const auto goesUp = [](const Run& run) { return run.to > run.from; };

@@ -20,8 +20,8 @@ void NearRows::settle(data::Generation set, int material) {
       trace::Kind::message);
 }
 
-/// Rows of nodes near particles. A task that reads particles `reach` cells beyond the patch touches nodes up to reach -
-/// 1 beyond those of their cells.
+/// Returns the rows of nodes near particles. A task that reads particles `reach` cells beyond the patch touches nodes
+/// up to reach - 1 cells beyond the nodes of the patch.
 const data::TouchedRows& NearRows::rowsOf(data::Generation set, int material, const grid::Patch& patch,
                                           data::TouchedRows& whole) const {
   const data::ParticleSet& particles = warehouse_->particles(set, material, patch.id());

@@ -10,30 +10,31 @@
 
 namespace tushar::tasks {
 
-/// How and where a run of a graph stopped early: the first failing task in the order of the graph, over all ranks. It
-/// is sent in messages byte by byte.
+/// Describes how and where the run of a graph stopped early: the first failing task in the order of the graph, over all
+/// ranks. It is sent in messages byte by byte.
 ///
-/// A task that shortens the time step comes before one that breaks a bound, since what it computed is not used.
+/// A task that shortens the time step takes precedence over one that violates a bound, because the results of a
+/// shortened step are not used.
 struct Outcome {
-  /// If a task has several faults, the first in this order is reported, which does not depend on patches and ranks:
-  /// first exceptions of bodies, by cell, then violated bounds, by the position of the variable among those of the
-  /// task.
+  /// The ways in which a task can stop a run. If there are several, the first in this order is reported, so that the
+  /// report does not depend on patches and ranks. Among exceptions of bodies, the lowest cell comes first; among
+  /// violated bounds, the first variable of the task.
   enum class Kind { shortensStep, throws, breaks };
   static constexpr int none = std::numeric_limits<int>::max();
 
   int task = none;  ///< index of the task in the graph
   Kind kind = Kind::shortensStep;
   int material = 0;
-  std::uint64_t place = 0;  ///< cell, or index of the variable
+  std::uint64_t place = 0;  ///< position of the cell, or index of the variable
   int rank = 0;
-  data::Minimum factor{};  ///< factor by which to shorten the time step
-  data::Reason value{};    ///< the invalid value, or the task
+  data::Minimum factor{};  ///< factor by which the time step must be shortened
+  data::Reason value{};    ///< name of the invalid value, or of the task
 
   bool isNone() const { return task == none; }
   void merge(const Outcome& other);
 };
 
-/// The error of rank `from`, on every rank. Collective.
+/// Sends the error of rank `from` to all ranks, and returns it on every rank. Collective.
 NumericalError broadcastError(const mpi::Communicator& ranks, const std::optional<NumericalError>& mine, int from);
 
 }  // namespace tushar::tasks

@@ -12,19 +12,19 @@ namespace tushar::tasks {
 class ParticleInstaller {
  public:
   using Work = std::function<void(const grid::Patch&, ParticleMaker&)>;
-  /// Runs work on all patches, possibly on several at once.
+  /// Calls a function for all patches, possibly for several patches in parallel.
   using OnPatches = std::function<void(const Work&)>;
 
   ParticleInstaller(data::Warehouse& warehouse, int material, const std::vector<ParticleMaker>& makers);
 
-  /// First, installs the particle sets, which then have slots.
+  /// First step: installs the particle sets, which then have slots.
   void makeSets(const OnPatches& onPatches);
-  /// Then installs the values of a created label, or discards those of a label that nothing reads.
+  /// Second step: installs the values of a created label, or discards those of a label that nothing reads.
   void write(int number, std::size_t access, bool isRead, const OnPatches& onPatches);
   void writeIds(const OnPatches& onPatches);
 
  private:
-  /// Calls `writeOne(maker, destination of its values)` for the patches with new particles; the others keep their
+  /// Calls `writeOne(maker, destination of its values)` for each patch with new particles; the other patches keep their
   /// values.
   template <class WriteOne>
   void writeEach(int number, const OnPatches& onPatches, const WriteOne& writeOne);

@@ -7,7 +7,7 @@
 
 namespace tushar::tasks {
 
-/// A column of a particle set under construction; `Column<T>::values` is what the task's body fills.
+/// A column of a particle set under construction; the task's body fills `Column<T>::values`.
 class ColumnBase {
  public:
   virtual ~ColumnBase() = default;
@@ -36,7 +36,7 @@ class ParticleMaker {
     ids_.push_back(id);
   }
 
-  /// Keeps the particles of the patch unchanged; no particle may have been added.
+  /// Keeps the particles of the patch unchanged; only if no particle has been added.
   void keepAll() { keeps_all_ = true; }
 
   /// The values of a created label.
@@ -51,7 +51,7 @@ class ParticleMaker {
   /// Installs the particles as those of the patch, sorted by (cell, id).
   /// Throws data::AccessError for a particle outside the patch.
   void makeSet(data::ParticleSet& set, const grid::Patch& patch, int reach);
-  /// Whether there are values of a created label.
+  /// Whether there are values for a created label.
   bool creates(std::size_t access) const { return columns_[access] != nullptr; }
   /// Writes the values of a created label in the order of the set, and discards them. Throws data::AccessError for a
   /// column of another length.
@@ -67,8 +67,8 @@ class ParticleMaker {
   bool keeps_all_ = false;
   std::vector<Index3> cells_;
   std::vector<ParticleId> ids_;
-  std::vector<std::size_t> order_;  ///< for each index in the set, the index among the added particles
-  std::vector<std::unique_ptr<ColumnBase>> columns_;  ///< by access
+  std::vector<std::size_t> order_;                    ///< for each index in the set, the index in the order of addition
+  std::vector<std::unique_ptr<ColumnBase>> columns_;  ///< columns of values, by access
 };
 
 }  // namespace tushar::tasks

@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// A particle variable that outlives a relocation, and the generation of its values before it.
+/// A particle variable that is kept during a relocation, and the generation of its values before it.
 struct Carried {
   int variable;
   data::Generation from;
@@ -17,24 +17,25 @@ struct Carried {
 /// A particle that migrates to another rank.
 struct MigratingParticle {
   ParticleId id;
-  Index3 cell;       ///< its new cell
-  int patch, place;  ///< its previous patch and index
+  Index3 cell;       ///< index of its new cell
+  int patch, place;  ///< its previous patch, and its index there
 };
 
 /// Migrates particles between ranks with all their values, in one message to each neighbour.
 ///
-/// A particle may go to any cell of the grid. Ranks expect messages from their neighbours only; where some particle
-/// goes farther, which all ranks agree on before, they expect one from every rank.
+/// A particle may go to any cell of the grid. Ranks usually expect messages from their neighbours only. If any particle
+/// goes farther, about which all ranks agree first, they expect a message from every rank.
 class ParticleMigration {
  public:
-  /// Ranks with patches within this distance, in cells, are neighbours; few particles travel farther in a step.
+  /// Ranks with patches within this number of cells are neighbours; few particles travel farther in a step.
   static constexpr int neighbourhood = 2;
 
   explicit ParticleMigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
 
-  /// Must be called when the distribution of patches has changed, and with it the neighbours.
+  /// Forgets the neighbours. Must be called when the distribution of patches, and hence the set of neighbours, has
+  /// changed.
   void forgetLayout();
-  /// Starts a relocation: no particle leaves yet.
+  /// Starts a relocation, with no migrating particles yet.
   void start();
   void add(int rank, const MigratingParticle& particle) { leaving_[rank].push_back(particle); }
   /// Whether a particle migrates to a rank that is not a neighbour.
@@ -43,7 +44,7 @@ class ParticleMigration {
   /// Exchanges migrating particles and all their carried values with all ranks or, if `goFar` is false, only with the
   /// neighbours.
   void run(const std::vector<Carried>& carried, bool goFar);
-  /// The particles that have arrived.
+  /// The particles that have arrived on this rank.
   const std::vector<MigratingParticle>& arrived() const { return arrived_; }
   /// The values of a carried variable for the particles that have arrived, one after the other.
   const std::byte* values(std::size_t carried) const { return values_[carried].data(); }
@@ -57,9 +58,9 @@ class ParticleMigration {
   mpi::Outbox outbox_;
   bool has_neighbours_ = false;
   std::vector<int> neighbours_;
-  std::map<int, std::vector<MigratingParticle>> leaving_;  ///< by rank
+  std::map<int, std::vector<MigratingParticle>> leaving_;  ///< particles that leave, by destination rank
   std::vector<MigratingParticle> arrived_;
-  std::vector<mpi::Bytes> values_;  ///< by carried variable
+  std::vector<mpi::Bytes> values_;  ///< values of the particles that have arrived, for each carried variable
 };
 
 }  // namespace tushar::tasks

@@ -81,7 +81,7 @@ class Unpacker {
     for (const Patch& patch : patches_)
       for (int material = 0; material < migrated_.materials; ++material) takeSet(patch, material);
   }
-  /// Reads the variables, once the particles of all patches of the rank have slots.
+  /// Reads the variables, after the particles of all patches of the rank have received slots.
   void takeVariables() {
     for (const Patch& patch : patches_)
       for (const int number : migrated_.variables) takeVariable(patch, number);
@@ -132,7 +132,7 @@ class Unpacker {
   const std::byte* from_;
 };
 
-/// Calls `visit(rank, first, end)` for each rank that has some of the patches from `first` to `end`.
+/// Calls `visit(rank, first, end)` for each rank that has any of the patches from `first` to `end`.
 template <class Visit>
 void forEachOwner(const grid::RankOffsets& offsets, int first, int end, Visit&& visit) {
   for (std::size_t rank = 0; rank + 1 < offsets.size(); ++rank)

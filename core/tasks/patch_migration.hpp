@@ -10,8 +10,9 @@ struct MigratedVariables {
   std::vector<int> variables;
 };
 
-/// Redistributes the patches of the grid to the ranks, each with its variables. Ghosts are left to the next exchange;
-/// all other values of patches are lost. All ranks that share the grid call it, between two steps.
+/// Redistributes the patches of the grid over the ranks, each with its variables. The next exchange fills the ghosts;
+/// values that are not in `migrated` are lost, except reductions. All ranks that share the grid call it, between two
+/// steps.
 void migratePatches(grid::Grid& grid, data::Warehouse& warehouse, const MigratedVariables& migrated,
                     const grid::RankOffsets& offsets);
 

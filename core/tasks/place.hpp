@@ -7,7 +7,7 @@
 
 namespace tushar::tasks {
 
-/// One run of a task: on a patch (-1: all of the rank), for a material (-1: none, or all).
+/// One call of a task: on a patch (-1: all patches of the rank), for a material (-1: none, or all).
 struct Placement {
   int task;
   int patch;

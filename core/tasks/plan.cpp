@@ -19,7 +19,8 @@ std::vector<Generation> particleSetsBefore(const std::vector<Task>& tasks) {
 
 namespace {
 
-/// Required ghosts: their values are complete after task `ready` (-1: from the start), and are first read by `reader`.
+/// Ghosts that a task requires. Their values are complete after task `ready` (-1: from the start); task `reader` is the
+/// first to read them.
 struct Need {
   GhostFill fill;
   int ready;
@@ -62,7 +63,8 @@ class Needs {
 
   std::vector<Generation> sets_;
   std::map<std::string, int, std::less<>> last_write_;
-  std::map<std::string, Generation, std::less<>> made_near_;  ///< the particle set from which nodes were computed
+  /// Generation of the particle set from which each node variable was computed.
+  std::map<std::string, Generation, std::less<>> made_near_;
   int last_change_of_set_ = -1;
   std::vector<Need> needs_;
 };

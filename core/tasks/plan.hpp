@@ -13,19 +13,21 @@ struct GhostFill {
   const data::Label* label;
   data::Generation generation;  ///< generation of the values
   data::Generation
-      set;  ///< generation of the particle set to which the values belong, or from which nodes were computed
+      set;  ///< generation of the particle set to which the values belong, or from which node values were computed
   bool perMaterial;
 
   friend bool operator==(const GhostFill&, const GhostFill&) = default;
 };
 
-/// The ghost exchanges before a task. All of it goes in one message per pair of patches' owners.
+/// The ghost exchanges before a task. They need only one message per pair of ranks.
 struct Stage {
   std::vector<GhostFill> fills;
-  int ready = -1;  ///< the task after which it may be sent: all values exist, and earlier stages are read; -1: at once
+  /// Index of the task after which the messages may be sent, because all values exist and earlier stages have been
+  /// received; -1: from the start.
+  int ready = -1;
 };
 
-/// The particle set of each access: the old one until the list relocates or makes particles, then the new one.
+/// The particle set of each access: the old set until the list relocates or makes particles, then the new one.
 std::vector<data::Generation> particleSetsBefore(const std::vector<Task>& tasks);
 
 /// Step 5 of compiling: `plan[t]` lists the exchanges before task t.

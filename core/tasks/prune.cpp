@@ -31,7 +31,7 @@ void stepBack(const Task& task, Names& live) {
 
 struct Sweep {
   std::vector<bool> kept;
-  std::vector<Names> liveAfter;  ///< for every task
+  std::vector<Names> liveAfter;  ///< live variables after each task
 };
 
 Sweep sweep(const std::vector<Task>& tasks, Names live) {
@@ -64,7 +64,7 @@ void leaveOutOffers(Task& task, const Names& liveAfter) {
     if (access.offered && !liveAfter.contains(access.label->name)) access.kind = AccessKind::leftOut;
 }
 
-/// Particle variables that the list does not compute before a relocation, but needs afterwards.
+/// Particle variables that the list does not compute before a relocation but needs after it.
 Names carriedFromState(const std::vector<Task>& tasks, const Sweep& swept) {
   Names carried, produced;
   for (std::size_t t = 0; t < tasks.size(); ++t) {

@@ -8,10 +8,11 @@ namespace tushar::tasks {
 
 namespace {
 
-/// Accesses of the task that changes a variable: the fluxes or their register, the variable, the time step.
+/// Indices of the accesses of the task that corrects a variable: the fluxes or their register, the variable, the time
+/// step.
 enum { fluxes, variable, timeStep };
 
-/// U += ± dt (F - mean of the finer F) / h; `dt` is 1 if the register contains dt F.
+/// Corrects U += ± dt (F - mean of the finer F) / h; `dt` is 1 if the register contains dt F.
 void reflux(const TaskContext& context, int components, double dt) {
   const grid::Patch& patch = context.patch();
   const data::Variable rim = context.variable(fluxes), cells = context.variable(variable);
@@ -28,7 +29,7 @@ void reflux(const TaskContext& context, int components, double dt) {
   }
 }
 
-/// A variable with stored fluxes, and its materials, which are empty if it belongs to none.
+/// A variable with stored fluxes, and its materials, which are empty if it does not belong to materials.
 struct Flowing {
   const data::Label* label;
   std::vector<std::string> materials;
@@ -49,15 +50,15 @@ Task refluxTask(const Flowing& flowing) {
   return task;
 }
 
-/// The label of the register of a variable: the sums of dt F through the rims of patches, called `rim.sum.` and the
-/// name of the variable.
+/// The label of the register of a variable: the sums of dt F through the rims of patches, named `rim.sum.` and the name
+/// of the variable.
 const data::Label& registerOf(const data::Label& label) { return data::rimLabelOf(data::rimLabelOf(label)); }
 
-/// Accesses of the task that adds to a register.
+/// Indices of the accesses of the task that adds to a register.
 enum { rim, sums, step, part };
 
-/// Adds to the register. At coarser cells, sums start anew with each of their steps; at finer cells, there is one step
-/// at a time.
+/// Adds the fluxes of a step to the register. A level resets the sums for its faces to finer cells at each of its
+/// steps; those for faces to coarser cells accumulate over all steps within a coarser step.
 void addToRegister(const TaskContext& context, int components) {
   const double dt = context.reduction<data::Minimum>(step).value;
   const bool isFirst = context.reduction<data::Minimum>(part).value == 0;
@@ -94,8 +95,8 @@ Task refluxTaskOfSteps(const Flowing& flowing) {
   return task;
 }
 
-/// The list in which the first task that stores the fluxes of a variable sets them, and the others add to them. Calls
-/// `behind(list, flowing)` after the last one.
+/// Returns the list in which the first task that stores the fluxes of a variable sets them, and later tasks add to
+/// them. After the last of these tasks, calls `behind(list, flowing)`, which may add tasks.
 template <class Behind>
 TaskList withTasksBehindFluxes(const TaskList& list, const Behind& behind) {
   std::map<std::string_view, int> last;  // task that keeps the fluxes, by the name of the rim's label

@@ -6,22 +6,23 @@
 
 namespace tushar::tasks {
 
-/// Adds a task to the list for each variable whose fluxes are kept, after the last task that keeps them. In a coarse
-/// cell next to finer ones, it replaces the flux through the face between them by the mean of the finer fluxes,
+/// Returns the list with an additional task for each variable whose fluxes are kept, placed after the last task that
+/// stores its fluxes. In a coarse cell next to finer ones, this task replaces the flux through the face between them by
+/// the mean of the finer fluxes,
 ///
 ///     U += ± dt / h (F - mean of the finer F),  + at upper faces,
 ///
-/// axis by axis, the lower face first. So what leaves one level arrives in the other, and totals are kept to round-off.
-/// Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64.
+/// axis by axis, the lower face first. So the amount that leaves one level enters the other, and totals are conserved
+/// to round-off. Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64.
 TaskList withRefluxing(const TaskList& list);
 
 /// The fraction of the next coarser level's step that has elapsed when a level's step begins.
 inline constexpr data::ReductionLabel<data::Minimum> partOfStep{
     "partOfStep", "1", "fraction of the next coarser level's step that has elapsed"};
 
-/// The lists of a step in which finer levels take several smaller steps.
+/// The task lists of a step in which finer levels take several smaller steps.
 struct SteppedByLevel {
-  /// The step of a level: after the last task that keeps the fluxes of a variable, a task adds the fluxes times the
+  /// The step of one level: after the last task that keeps the fluxes of a variable, a task adds the fluxes times the
   /// step to a register, which sums over all steps within one step of the next coarser level.
   TaskList advance;
   /// Runs on the coarser level after those steps: U += ± 1 / h (dt F - mean of the sums of dt F of the finer level).
@@ -29,7 +30,7 @@ struct SteppedByLevel {
 };
 SteppedByLevel withRegisters(const TaskList& list);
 
-/// The registers of a list, by name.
+/// The names of the registers used in a list.
 Names registersOf(const TaskList& list);
 
 }  // namespace tushar::tasks

@@ -22,22 +22,23 @@ using mpi::Bytes;
 
 namespace {
 
-/// Cells of a new patch that come from one old patch.
+/// Cells of a new patch whose values come from one old patch.
 struct Piece {
   int from, to;
-  Box box;        ///< in cells of the new patch
+  Box box;        ///< box of cells of the new patch
   int coarser;    ///< number of levels by which the new cells are coarser; -1: one level finer
-  bool isFinest;  ///< whether the new patch is of the finest level
+  bool isFinest;  ///< whether the new patch is on the finest level
 };
 
-/// The pieces of which new patches consist.
+/// The pieces of which the new patches consist.
 class Pieces {
  public:
   Pieces(const grid::Tiling& before, const grid::Tiling& after, int dimension, int levels)
       : before_(before), after_(after), dimension_(dimension), levels_(levels) {}
 
-  /// Calls `visit(piece)` for each of a new patch, in an order that does not depend on the rank. Looks for cells of
-  /// finer and finer levels until it has all: a search of the finest would visit as many blocks as fill the grid.
+  /// Calls `visit(piece)` for each piece of a new patch, in an order that does not depend on the rank. Searches the old
+  /// levels from coarse to fine until all cells are found, because a search on the finest level alone would visit too
+  /// many blocks.
   template <class Visit>
   void of(int to, const Visit& visit) const {
     const Tile tile = after_.tile(to);
@@ -76,7 +77,7 @@ class Pieces {
   int dimension_, levels_;
 };
 
-/// The means of cells several levels finer.
+/// Computes the means of cells several levels finer.
 Bytes meansOf(const data::Label& label, int dimension, const Piece& piece, const Variable& old) {
   CellValues fine{old.values, old.stored};
   Bytes means;
@@ -91,8 +92,8 @@ Bytes meansOf(const data::Label& label, int dimension, const Piece& piece, const
   return means;
 }
 
-/// Appends the values of the cells of a piece, x fastest. In a message they stand at any byte: numbers are made
-/// elsewhere.
+/// Appends the values of the cells of a piece, x fastest. Values in a message need not be aligned, so they are computed
+/// in other memory and then copied.
 void pack(const data::Label& label, int dimension, const Piece& piece, const Variable& old, Bytes& to) {
   if (piece.coarser == 0) {
     const std::size_t before = to.size();
@@ -112,7 +113,7 @@ void unpack(const data::Label& label, const Piece& piece, const Variable& to, co
   from += piece.box.size() * label.bytes;
 }
 
-/// The variables that move, and their packing; particles are on the finest level only, and remain there.
+/// The variables to be transferred, and how they are packed; particles are on the finest level only, and remain there.
 class Luggage {
  public:
   Luggage(data::Warehouse& warehouse, const MigratedVariables& variables)
@@ -125,11 +126,11 @@ class Luggage {
     if (particles_.empty()) materials_ = 0;  // such as gases that share cells: none has sets of particles
   }
 
-  /// Allocates the values of cells on all patches.
+  /// Allocates the cell variables on all patches.
   void allocate() const {
     for (const int number : cells_) warehouse_.allocateGrid(Generation::old, number);
   }
-  /// Allocates the values of particles, once their sets exist.
+  /// Allocates the particle variables, after their sets have been created.
   void allocateParticles() const {
     for (int material = 0; material < materials_; ++material)
       warehouse_.layOut(Generation::old, material, Generation::old);
@@ -153,7 +154,7 @@ class Luggage {
       forEachRange(piece, piece.from, number,
                    [&](std::byte* values, std::size_t length) { mpi::append(to, values, length); });
   }
-  /// Reads the counts; sets need all counts before particles get their indices.
+  /// Reads the numbers of particles; all must be known before particles get their indices.
   void unpackCounts(const Piece& piece, const std::byte*& from) const {
     forEachSet(piece, piece.to, [&](ParticleSet& set) {
       grid::forEach<3>(piece.box, [&](const Index3& cell) {
@@ -183,7 +184,7 @@ class Luggage {
     return count;
   }
   bool hasMaterials() const { return materials_ > 0; }
-  /// Bytes of all variables of a cell.
+  /// Size of all variables of a cell [bytes].
   std::size_t bytesOfCell() const {
     std::size_t bytes = 0;
     for (const int number : cells_) bytes += label(number).bytes;
@@ -237,7 +238,7 @@ class Luggage {
   std::vector<int> cells_, particles_;
 };
 
-/// The messages to other ranks: the counts of all pieces, then the values of all.
+/// The messages to other ranks: first the numbers of particles in all pieces, then all values.
 std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, const grid::Partition& owners,
                             const Luggage& luggage) {
   const Pieces pieces(grid.patchTiling(), next, grid.dimension(), grid.levels());

@@ -13,10 +13,10 @@ struct PatchCosts {
 };
 
 /// Changes the tree of a grid of several levels, and transfers the old values of cell variables to its new patches:
-/// copied where the level is the same, averaged where cells become coarser, interpolated (see prolong) where they
-/// become finer. Their ghosts, one layer at least, must be there. No cell becomes more than one level finer, and k
-/// levels coarser only in blocks of a multiple of 2^k cells; all other values of patches are lost. The shares of ranks
-/// are as equal in costs as whole patches allow. All ranks that share the grid call it, between two steps.
+/// copied on the same level, averaged where cells become coarser, and interpolated (see prolong) where they become
+/// finer. At least one layer of ghosts must be valid. No cell may become more than one level finer. A cell may become k
+/// levels coarser only if the cells of a block along each axis are a multiple of 2^k. All other values of patches are
+/// lost. The costs of ranks are as equal as whole patches allow. All ranks of the grid call it, between two steps.
 void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables,
             const PatchCosts& costs = {});
 

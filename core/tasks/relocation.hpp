@@ -15,10 +15,10 @@
 
 namespace tushar::tasks {
 
-/// Numbers of particles that are no longer in a run.
+/// Numbers of particles that a run has lost.
 struct LostParticles {
-  long left = 0;     ///< through free faces of the grid, from this rank
-  long removed = 0;  ///< from all ranks, where they could not be continued (`data::removed`)
+  long left = 0;     ///< number that left through free faces of the grid, on this rank
+  long removed = 0;  ///< number removed because they could not be continued (`data::removed`), on all ranks
 
   LostParticles& operator+=(const LostParticles& other) {
     left += other.left;
@@ -29,56 +29,57 @@ struct LostParticles {
 
 /// Assigns particles and their variables to the cells and patches of their new positions, in the order (cell, id).
 ///
-/// Keeps its working memory from step to step. Finding the moves, which may fail, is separate from making them: if
-/// nothing reads particles in between, they are made when the step is accepted, in the existing memory.
+/// Reuses its working memory in each step. Finding the moves, which may fail, is separate from making them: if no task
+/// reads particles in between, the moves are made when the step is accepted, in the existing memory.
 class Relocation {
  public:
   Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
 
-  /// Finds the new cells of a material's particles from the new values of `position`. Those that left through a
-  /// periodic face come in at the opposite one; those that left through a free face are to be dropped.
+  /// Finds the new cells of a material's particles from the new values of `position`. Particles that left through a
+  /// periodic face enter at the opposite one; those that left through an open face will be dropped.
   ///
-  /// All ranks run it together. False if one of them has stopped before: then nothing is done on any.
-  /// Those at `data::vanished` are dropped, too, without being counted; those at `data::removed` are counted.
-  /// Throws NumericalError, on all ranks, for a position that is not finite, lies behind a symmetry plane, or in
-  /// coarser cells than the finest or too near to them.
+  /// All ranks call it together. Returns false if a rank has stopped before; then nothing is done on any rank.
+  /// Particles at `data::vanished` are dropped, too, without being counted; those at `data::removed` are counted.
+  /// Throws NumericalError, on all ranks, for a position that is not finite, lies behind a symmetry plane, or is inside
+  /// coarser cells or too close to them.
   bool find(int material, int position, bool hasStopped);
   /// Builds the new particle set of a material from the old one and the moves found, and moves every carried variable
-  /// to it, in generation `to`. What is in that generation already moves within its memory. All ranks run it together.
+  /// to it, in generation `to`. Values that are already in that generation move within their memory. Collective.
   void apply(int material, const std::vector<Carried>& carried, data::Generation to);
 
-  /// Must be called when the distribution of patches has changed.
+  /// Discards all moves. Must be called when the distribution of patches has changed.
   void forgetLayout();
 
-  /// Starts a step, possibly again.
+  /// Starts a step, or starts it again.
   void start() { losing_ = {}; }
   /// Accepts the moves of the step.
   void commit() { lost_ += std::exchange(losing_, {}); }
-  /// Particles lost since the start.
+  /// Number of particles lost since the start.
   const LostParticles& lost() const { return lost_; }
-  /// Continues the count of another run; on all ranks.
+  /// Sets the numbers of lost particles when a run is continued; on all ranks.
   void setLost(const LostParticles& lost) { lost_ = lost; }
-  /// Advice for a particle that comes too close to coarser cells.
+  /// Sets the advice to the user if a particle comes too close to coarser cells.
   void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
 
  private:
   /// A particle that enters a cell, from this patch or another.
   struct Incoming {
     ParticleId id;
-    int from;  ///< index among the departed of the patch, or -1 - its index among the arrivals
-    int next;  ///< the incoming particle of the same cell with the next larger id, or -1
+    int from;  ///< index among the departed particles of the patch, or -1 - its index among the arrivals
+    int next;  ///< index of the incoming particle of the same cell with the next larger id, or -1
   };
   /// The origin of a particle from another patch.
   struct Arrival {
-    int patch, place;  ///< patch, and index among its departed; patch -1: index among those from other ranks
+    /// Patch, and index among its departed particles; if the patch is -1, index among those from other ranks.
+    int patch, place;
   };
   /// A particle that moves to a cell of another patch.
   struct Outgoing {
     ParticleId id;
     Index3 cell;
-    int from, departed;  ///< previous index, and index among the departed
+    int from, departed;  ///< previous index, and index among the departed particles
   };
-  /// A particle at an invalid position; if there are several, the first by cell and id.
+  /// A particle at an invalid position; if there are several, the first by cell and by id.
   struct Escape {
     std::uint64_t cell;
     ParticleId id;
@@ -86,17 +87,17 @@ class Relocation {
 
     friend auto operator<=>(const Escape&, const Escape&) = default;
   };
-  /// The result that all ranks need before any continues.
+  /// The result that all ranks need before any of them continues.
   struct Verdict {
     bool hasStopped, hasEscape, goFar;
-    int rank;  ///< rank of the escaped particle
+    int rank;  ///< rank of the particle at an invalid position
     Escape escape;
-    long removed = 0;  ///< particles of all ranks
+    long removed = 0;  ///< number of particles removed, on all ranks
 
     void merge(const Verdict& other);
   };
-  /// Particles that stay in their cells, consecutive before and after: `count` particles move from index `from` to
-  /// index `to`.
+  /// Particles that stay in their cells and are consecutive before and after: `count` particles move from index `from`
+  /// to index `to`.
   struct Run {
     int to, from, count;
   };
@@ -106,7 +107,7 @@ class Relocation {
   };
   struct PatchMoves {
     std::vector<int> departed;       ///< indices of the patch's particles that leave their cell, ascending
-    std::vector<Outgoing> outgoing;  ///< those of them that move to other patches
+    std::vector<Outgoing> outgoing;  ///< those departed particles that move to other patches
     std::vector<Incoming> incoming;  ///< particles that enter a cell of the patch
     std::vector<Arrival> arrivals;
     data::RowTable<int> firstIncoming;  ///< by cell, or -1; rows that particles enter are open
@@ -129,10 +130,10 @@ class Relocation {
     std::vector<PatchMoves> patches;
     ParticleMigration migration;
     bool goFar = false;
-    int id = -1;               ///< index of the variable of ids, once it is known
+    int id = -1;               ///< index of the variable that contains the ids, once it is known
     std::size_t departed = 0;  ///< number of particles that leave their cells, on all patches
   };
-  /// A variable in transit: its memory before and after on each patch, and the values of departed particles.
+  /// A variable being moved: its memory before and after on each patch, and the values of departed particles.
   struct Move {
     std::size_t bytes;
     const std::byte* from;
@@ -161,23 +162,24 @@ class Relocation {
   template <int D>
   void findMoves(const grid::Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids,
                  PatchMoves& moves);
-  /// Notes the destination of the particle with index `departed` among those that leave their cells.
+  /// Records the destination of the particle with index `departed` among those that leave their cells.
   template <int D>
   void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int departed, PatchMoves& moves);
-  /// Sorts the particles that left their patch into those that escaped, left the grid, or migrate to another rank.
+  /// Sorts the particles that left their patch into those at an invalid position, those outside the grid, and those
+  /// that migrate to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
   /// The error for a particle at an invalid position.
   template <int D>
   NumericalError refusal(int position, const Escape& escape) const;
-  /// Passes particles to the patches that they enter.
+  /// Adds incoming particles to the patches that they enter.
   void receiveAll(Moves& moves);
   static void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves);
   void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);
   static void keepAll(PatchMoves& moves, int count);
   static void keep(PatchMoves& moves, int first, int count);
-  /// Appends the cells from `from` to `end` up to the first that particles leave or enter, records the indices in `to`,
-  /// and returns the number of cells.
+  /// Appends the cells from `from` up to the first cell that particles leave or enter, but not beyond `end`; records
+  /// the indices in `to`, and returns the number of cells.
   static int keepCells(PatchMoves& moves, std::span<const data::ParticleRange> from, const int* firstIncoming,
                        std::size_t nextDeparted, data::ParticleRange* to);
   static void mergeCell(PatchMoves& moves, const data::ParticleRange& before, int firstIncoming, const ParticleId* ids,
@@ -188,14 +190,14 @@ class Relocation {
   /// Moves the particles that stay to their new indices, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
-  /// Whether a cell of the finest level is too close to coarser ones for a particle that comes from a patch.
+  /// Whether a cell of the finest level is too close to coarser cells for a particle that comes from a patch.
   bool isNearCoarser(const grid::Patch& from, const Index3& cell) const;
 
   data::Warehouse* warehouse_;
-  int margin_ = 0;  ///< number of cells of the finest level required around particles
+  int margin_ = 0;  ///< number of cells of the finest level that are required around particles
   Threads* threads_;
-  std::deque<Moves> moves_;  ///< by material
-  LostParticles losing_;     ///< in the current step
+  std::deque<Moves> moves_;  ///< moves of the particles of each material
+  LostParticles losing_;     ///< particles lost in the current step
   LostParticles lost_;
   std::string advice_near_coarser_;
 };

@@ -17,7 +17,7 @@ using grid::Patch;
 
 namespace {
 
-/// Uses the old set as the new one.
+/// Makes the old set the new one, unchanged.
 void keepSet(data::Warehouse& warehouse, int material, const Patch& patch) {
   ParticleSet& before = warehouse.particles(Generation::old, material, patch.id());
   before.forgetGhosts();
@@ -101,7 +101,7 @@ void Relocation::keepAll(PatchMoves& moves, int count) {
   keep(moves, 0, count);
 }
 
-/// Appends particles that were consecutive and remain so.
+/// Appends particles that stay and were consecutive before; they remain consecutive.
 void Relocation::keep(PatchMoves& moves, int first, int count) {
   if (count == 0) return;
   Run* last = moves.runs.empty() ? nullptr : &moves.runs.back();
@@ -146,7 +146,7 @@ void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int f
   while (waiting >= 0) letInOne();
 }
 
-/// Moves a variable; within its memory if it is already in its generation and the slots allow it.
+/// Moves a variable to its new slots, within its memory if it is already in generation `to` and the slots allow this.
 void Relocation::carry(const Carried& carried, std::size_t place, Generation to, int material, Moves& moves) {
   const data::SharedSlots before = warehouse_->slots(carried.from, carried.variable);
   const data::SharedSlots after = warehouse_->slotsOfSets(Generation::fresh, material);

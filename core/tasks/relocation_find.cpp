@@ -59,7 +59,7 @@ void wrap(const grid::Level& level, Vec<D>& x) {
   }
 }
 
-/// Whether a particle may leave the grid to `cell`, which is allowed through a free face.
+/// Whether a particle may leave the grid towards `cell`: only through a free face.
 template <int D>
 bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
   bool may = true;
@@ -132,7 +132,7 @@ void Relocation::findMoves(int material, int position, int id) {
   });
 }
 
-/// Discards the entries of the last moves, even if they have not been made.
+/// Discards the records of the last relocation, even if its moves have not been made.
 void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
   const std::size_t length = cells.extent(0);
@@ -189,7 +189,7 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     return;
   }
   const Index3 wide = widened(cell);
-  if (isNearCoarser(from, wide)) {  // no patch may have it
+  if (isNearCoarser(from, wide)) {  // it may be outside all patches of this level
     const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
     if (!moves.escape || escape < *moves.escape) moves.escape = escape;
     return;

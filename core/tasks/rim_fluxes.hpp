@@ -5,8 +5,9 @@
 
 namespace tushar::tasks {
 
-/// The means of the finer fluxes of `copy.from` for each face of the coarser piece that the copy fills: in pairs along
-/// the first axis of the face, then along the second. `fluxes` are those of `copy.from`, one of this rank's patches.
+/// Computes, for each face of the coarser rim piece that `copy` fills, the mean of the finer fluxes through this face:
+/// first in pairs along the first axis of the face, then along the second. `fluxes` are the finer fluxes of the patch
+/// `copy.from`, which is on this rank; the means are written to `to`.
 void meanFluxes(const grid::Grid& grid, const GhostCopy& copy, int components, const double* fluxes, double* to);
 
 }  // namespace tushar::tasks

@@ -21,7 +21,7 @@ double seconds(std::chrono::steady_clock::duration duration) { return std::chron
 
 int firstMaterial(const CompiledTask& task) { return task.task.perMaterial() ? 0 : -1; }
 
-/// Runs `work`; adds the position to exceptions that it throws.
+/// Runs `work`; adds the position in the run to exceptions that it throws.
 template <class Work>
 void located(const CompiledTask& task, int patch, int material, const StepInfo& at, Work&& work) {
   try {
@@ -38,7 +38,7 @@ void located(const CompiledTask& task, int patch, int material, const StepInfo& 
   }
 }
 
-/// Keeps the first of the invalid values on all patches, by cell, then by patch.
+/// Keeps the first of the errors on all patches: that of the lowest cell or, for equal cells, of the lowest patch.
 class FirstRefusal {
  public:
   void note(const NumericalError& error, int patch) {
@@ -77,7 +77,7 @@ void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& 
   costs_[place] += seconds(Clock::now() - started);
 }
 
-/// Runs work on patches: first on those whose ghosts are complete, then on the others, when messages have arrived.
+/// Runs work on patches: first on those whose ghosts are complete, then on the others, after messages have arrived.
 template <class Work>
 void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   const int patches = warehouse_->patches();
@@ -94,7 +94,7 @@ void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   if (isUnderWay && finishExchange(task)) workOnAll(late);
 }
 
-/// Completes the exchange; false if a rank from which this one receives messages has stopped.
+/// Completes the exchange; returns false if a rank from which this one receives messages has stopped.
 bool Scheduler::finishExchange(CompiledTask& task) {
   const auto started = Clock::now();
   heard_stop_ = !exchange_.finish() || heard_stop_;
@@ -147,7 +147,7 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   }
   agree(graph);
   if (outcome_.isNone()) return std::nullopt;
-  warehouse_->forgetGhosts();  // ranks that stopped before others have settled fewer
+  warehouse_->forgetGhosts();  // ranks that stopped early have determined fewer ghosts than others
   if (outcome_.kind == Outcome::Kind::shortensStep) return outcome_.factor;
   if (at.mayRepeat) return data::Minimum{0.5, outcome_.value};
   if (outcome_.kind == Outcome::Kind::throws) throw broadcastError(warehouse_->ranks(), error_, outcome_.rank);
@@ -198,7 +198,7 @@ std::optional<data::Minimum> Scheduler::factorOf(const CompiledTask& task) {
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
 }
 
-/// Whether this rank runs a collective task, which is not so if any rank has stopped, or if this rank has no patches.
+/// Whether this rank may run a collective task: false if any rank has stopped, or if this rank has no patches.
 bool Scheduler::mayRunTogether() {
   heard_stop_ = warehouse_->ranks().any(hasStopped());
   ranksWithPatches();
@@ -213,8 +213,8 @@ const mpi::Communicator& Scheduler::ranksWithPatches() {
   return *with_patches_;
 }
 
-/// Runs a task. If it may request a repetition of the step, it runs for all materials, whatever happens on this rank,
-/// as every request counts.
+/// Runs a task. If it may request a repetition of the step, it runs for all materials even after an error on this rank,
+/// because every request counts.
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
   const bool mayAsk = task.recomputeTimeStep >= 0, isOnce = task.task.acrossMaterials || task.task.perRank;

@@ -10,31 +10,32 @@
 
 namespace tushar::tasks {
 
-/// The position in a run at which a graph is executed; used in errors.
+/// The step in which a graph is run, and the level on which it runs.
 struct StepInfo {
   int step = 0;
-  double time = 0;         ///< s
-  double delT = 0;         ///< s; 0 if it has no meaning
-  int repeats = 0;         ///< repeats of this step so far
-  bool mayRepeat = false;  ///< whether a NumericalError repeats the step instead of being thrown
-  int level = -1;          ///< the level whose patches the graph runs on; -1: all levels
+  double time = 0;         ///< time at the start of the step [s]
+  double delT = 0;         ///< length of the step [s]; 0 if there is none
+  int repeats = 0;         ///< number of repetitions of this step so far
+  bool mayRepeat = false;  ///< whether a NumericalError causes a repetition of the step instead of being thrown
+  int level = -1;          ///< the level on whose patches the graph runs; -1: all levels
   double part = 0;         ///< elapsed fraction of the next coarser level's step, if `level` is given
 };
 
-/// The position of an error in words: task, patch (-1: all at once), material (-1: none), step, time.
+/// The position of an error in words: task, patch (-1: all patches together), material (-1: none), step, time.
 std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at);
 
-/// Runs compiled task graphs on the warehouse of this rank.
+/// Runs compiled task graphs with the warehouse of this rank.
 ///
-/// The patches of a task are worked through by all threads at once. No result depends on how many there are.
+/// All threads work on the patches of one task at the same time; no result depends on the number of threads.
 ///
-/// Ranks go through the same graph, each on its patches, and wait for one another only where one needs values of
-/// another: for ghosts, in a relocation, and once at the end of the graph, where reductions are merged and all agree on
-/// the outcome. A rank on which a task fails runs no other, and neither does one that would read its values. A task
-/// for all patches at once is run by all ranks that have patches, or by none.
+/// All ranks run the same graph, each on its own patches. A rank waits for others only if it needs their values: for
+/// ghosts, in a relocation, and at the end of the graph, where reductions are merged and all ranks agree on the
+/// outcome. A rank on which a task fails runs no further task, and neither does a rank that would read its values. A
+/// task that gets all patches of a rank together is run by all ranks that have patches, or by none.
 ///
-/// A graph whose tasks know only cells of their own level may be run on one level after the other, each with its own
-/// step: what it computes stays on all levels until forgetNew(), and commitLevel() makes it the old state of one.
+/// A graph whose tasks use only cells of their own level may be run on one level after the other, each with its own
+/// step: the results remain on all levels until forgetNew(), and commitLevel() copies those of one level to its old
+/// state.
 class Scheduler {
  public:
   /// Uses up to `threads` threads, but at most one per patch of this rank and one per `cellsPerThread` cells of a rank
@@ -47,28 +48,28 @@ class Scheduler {
         exchange_(warehouse, threads_),
         relocation_(warehouse, threads_) {}
 
-  /// Runs every task on every patch, and checks the bounds of the values that it wrote. The old generation is never
-  /// touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with task,
-  /// patch, material, step and time added, the same on all ranks; anything else as TaskError on the rank where it
-  /// happened. A failing task still runs on all patches; of several errors, that of the first cell, or patch, is
-  /// thrown.
+  /// Runs every task on every patch, and checks the bounds of the values written. The old generation is never changed.
+  /// A body that throws, or a violated bound, ends the run of the graph: a NumericalError is rethrown on all ranks,
+  /// with task, patch, material, step and time added; any other exception becomes a TaskError on the rank where it
+  /// occurred. A failing task still runs on all patches; if there are several errors, that of the first cell, or patch,
+  /// is thrown.
   ///
-  /// If a task requests a smaller time step by recomputeTimeStep, the graph ends with that task and the factor and
-  /// reason come back; running the graph once more repeats the step. Otherwise returns nothing.
+  /// If a task requests a smaller time step by recomputeTimeStep, the graph ends after this task, and its factor and
+  /// reason are returned; running the graph again repeats the step. Otherwise returns nothing.
   std::optional<data::Minimum> run(TaskGraph& graph, const StepInfo& at);
-  /// Fills the ghosts of old values of cell variables; all ranks must call it.
+  /// Fills the ghosts of old values of cell variables. Collective.
   void fillGhosts(const std::vector<int>& variables);
-  /// Makes the results of a graph the old state.
+  /// Makes the results of a graph the old state of the next step.
   void commit(TaskGraph& graph);
-  /// Copies the results of a graph to the old state of a level.
+  /// Copies the results of a graph on one level to the old state.
   void commitLevel(const TaskGraph& graph, int level);
   /// Discards the results of a graph that was run level by level.
   void forgetNew(const TaskGraph& graph);
 
-  /// Cost of each patch of this rank since the last call, in seconds of wall time with all threads busy; zeros on a
+  /// Cost of each patch of this rank since the previous call, in seconds of wall time with all threads busy; zeros on a
   /// single rank.
   std::vector<double> takeCosts();
-  /// Must be called when the distribution of patches has changed.
+  /// Forgets everything that depends on the distribution of patches. Must be called when it has changed.
   void forgetLayout();
 
   Relocation& relocation() { return relocation_; }
@@ -77,7 +78,7 @@ class Scheduler {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// During its lifetime, a single rank with one thread reads the clock once per task, not in each loop.
+  /// While this object exists, a single rank with one thread reads the clock once per task, not in each loop.
   class OneClock {
    public:
     OneClock(Threads& threads, const mpi::Communicator& ranks) : threads_(threads) {
@@ -90,11 +91,11 @@ class Scheduler {
    private:
     Threads& threads_;
   };
-  /// Time since the previous call, or since the start of the graph, s.
+  /// Time since the previous call, or since the start of the graph [s].
   double lap(trace::Kind kind);
   int usefulThreads() const;
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
-  /// Whether the graph runs on the patch with this index on the rank.
+  /// Whether the graph runs on the patch with this index on this rank.
   bool isOfLevel(std::size_t place) const;
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
@@ -102,7 +103,7 @@ class Scheduler {
   void start(const TaskGraph& graph, int end, const StepInfo& at);
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
-  /// Completes node variables for which each patch has written only its own nodes.
+  /// Completes node variables of which each patch has written only its own nodes.
   void shareFaces(const CompiledTask& task);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
@@ -120,7 +121,7 @@ class Scheduler {
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding);
   void free(const CompiledTask& task);
-  /// Carries out the moves that the last task of a graph has found, if it is a relocation.
+  /// Carries out the moves found by the last task of a graph, if this task is a relocation.
   void apply(CompiledTask& last);
 
   std::optional<data::Minimum> factorOf(const CompiledTask& task);
@@ -135,14 +136,14 @@ class Scheduler {
   Threads threads_;
   Exchange exchange_;
   Relocation relocation_;
-  std::vector<ParticleMaker> makers_;    ///< by patch, while a task makes particles
+  std::vector<ParticleMaker> makers_;    ///< makers of each patch, while a task makes particles
   Outcome outcome_;                      ///< outcome of the current run
-  std::optional<NumericalError> error_;  ///< the error behind it, on the rank on which a body threw it
-  std::vector<double> costs_;            ///< by patch: time of the threads that worked on it, s
-  bool heard_stop_ = false;              ///< whether a rank whose values this one needs has stopped
-  int level_ = -1;                       ///< the level whose patches the graph runs on; -1: all
-  int running_ = 0;                      ///< index of the task in its graph
-  int end_ = 0;                          ///< end of the tasks to run
+  std::optional<NumericalError> error_;  ///< the error that caused it, on the rank on which a body threw it
+  std::vector<double> costs_;            ///< for each patch: time of the threads that worked on it [s]
+  bool heard_stop_ = false;              ///< whether a rank from which this one receives values has stopped
+  int level_ = -1;                       ///< the level on whose patches the graph runs; -1: all
+  int running_ = 0;                      ///< index in the graph of the task that is running
+  int end_ = 0;                          ///< end of the range of tasks to run
   Clock::time_point lap_started_;
   std::optional<mpi::Communicator> with_patches_;
 };

@@ -2,7 +2,7 @@
 
 #include "core/tasks/scheduler.hpp"
 
-// How the run of a graph ends: faults are noted, all ranks agree on the first, and a sentence says what broke.
+// The end of the run of a graph: errors are recorded, all ranks agree on the first one, and a sentence describes it.
 
 namespace tushar::tasks {
 
@@ -60,8 +60,8 @@ void Scheduler::agree(const TaskGraph& graph) {
   });
 }
 
-/// The error for a violated bound, with values from all ranks, as they were after the task. Where other ranks have gone
-/// on since, the graph is run once more up to there.
+/// The error for a violated bound, with values from all ranks as they were after the task. If other ranks have
+/// continued since then, the graph is run again up to this task.
 NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   const Outcome outcome = outcome_;
   if (!warehouse_->ranks().isAlone()) {

@@ -9,7 +9,7 @@ namespace tushar::tasks {
 
 namespace {
 
-/// Accesses of the task: the old values and the new ones.
+/// Indices of the accesses of the task: the old values and the new ones.
 enum { old, fresh };
 
 void copyCells(const TaskContext& context, std::size_t bytes) {

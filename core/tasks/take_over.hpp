@@ -4,8 +4,8 @@
 
 namespace tushar::tasks {
 
-/// The list for tasks that modify old cell variables: before the first task that modifies a variable that no earlier
-/// task computes, a task `take over c.density` copies the old values.
+/// Returns the list with additional tasks that copy old cell variables: if a task modifies a variable that no earlier
+/// task computes, a task such as `take over c.density` is inserted before it, and copies the old values.
 TaskList takingOver(const TaskList& list);
 
 }  // namespace tushar::tasks

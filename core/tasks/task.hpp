@@ -11,11 +11,11 @@ namespace tushar::tasks {
 /// The ways in which a task uses a variable.
 enum class AccessKind {
   requiresOld,  ///< reads the state at the start of the step
-  requiresNew,  ///< reads what an earlier task of the list computed
+  requiresNew,  ///< reads values computed by an earlier task of the list
   computes,     ///< writes every value
-  modifies,     ///< changes what an earlier task computed
-  creates,      ///< writes the values of particles that the task itself makes
-  leftOut,      ///< an offered output that nothing reads: not allocated
+  modifies,     ///< changes values computed by an earlier task
+  creates,      ///< writes the values of new particles made by the same task
+  leftOut,      ///< an offered output that nothing reads: it is not allocated
 };
 
 /// One declared use of a variable.
@@ -23,10 +23,11 @@ struct Access {
   const data::Label* label;
   AccessKind kind;
   int ghost = 0;                       ///< number of layers of cells or nodes read around the patch
-  bool own = false;                    ///< for nodes: whether it writes only those that the patch owns
-  bool offered = false;                ///< whether a kept task can run without it
+  bool own = false;                    ///< for nodes: whether it writes only the nodes that the patch owns
+  bool offered = false;                ///< whether the task is kept, without this access, if nothing reads the variable
   const data::Label* keeps = nullptr;  ///< for fluxes: the conserved variable
-  bool ofNone = false;                 ///< whether the variable belongs to no material, although the task does
+  /// Whether the variable does not belong to a material, although the task runs over materials.
+  bool ofNone = false;
 
   bool reads() const {
     return kind == AccessKind::requiresOld || kind == AccessKind::requiresNew || kind == AccessKind::modifies;
@@ -50,14 +51,14 @@ enum class TaskKind {
 struct Task {
   std::string name;
   TaskKind kind = TaskKind::work;
-  std::vector<std::string> materials;  ///< names; empty for a task that belongs to no material
+  std::vector<std::string> materials;  ///< names of the materials; empty for a task that does not run over materials
   std::vector<Access> accesses;
   TaskBody body;
-  bool acrossMaterials = false;  ///< the body gets all materials of a patch at once
-  bool perRank = false;          ///< the body gets all patches of the rank at once
+  bool acrossMaterials = false;  ///< whether the body gets all materials of a patch together
+  bool perRank = false;          ///< whether the body gets all patches of the rank together
 
   bool perMaterial() const { return !materials.empty(); }
-  /// Whether each material has its own variable for an access.
+  /// Whether an access refers to a separate variable for each material.
   bool perMaterial(const Access& access) const { return perMaterial() && !access.ofNone; }
 };
 

@@ -16,7 +16,7 @@ using data::Generation;
 
 namespace {
 
-/// Every label that the tasks name.
+/// All labels that are used by the tasks.
 std::map<std::string, const data::Label*, std::less<>> labelsOf(const std::vector<Task>& tasks) {
   std::map<std::string, const data::Label*, std::less<>> labels;
   for (const Task& task : tasks) {
@@ -26,8 +26,8 @@ std::map<std::string, const data::Label*, std::less<>> labelsOf(const std::vecto
   return labels;
 }
 
-/// Whether a patch may run before the ghosts of others are filled: the task must not change the values from which these
-/// are filled.
+/// Whether a patch may run before the ghosts of other patches are filled: only if the task does not change the values
+/// from which these ghosts are filled.
 bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
   const auto isFilled = [&](const Access& access) {
     return std::any_of(task.fills.begin(), task.fills.end(), [&](const BoundGhostFill& fill) {
@@ -132,13 +132,13 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
   live.emplace(data::particleId.name);
   std::vector<Carried> carried;
   for (const std::string& name : live) {
-    // Variables that no task of this list names are made by an earlier list, and only carried.
+    // Variables that no task of this list names were made by an earlier list; this list only carries them along.
     const auto known = labels.find(name);
     if (known != labels.end() && known->second->centring != Centring::particle) continue;
     const int number = known == labels.end() ? table.find(name, material) : table.number(*known->second, material);
     if (number < 0 || table[number].label->centring != Centring::particle) continue;
     const bool isNew =
-        produced.contains(name) && t + 1 < pruned_.kept.size();  // the last task moves what counts already
+        produced.contains(name) && t + 1 < pruned_.kept.size();  // at the end of a list, values are old by then
     carried.push_back({number, isNew ? Generation::fresh : Generation::old});
   }
   return carried;

@@ -25,26 +25,28 @@ struct Output {
 struct MaterialBinding {
   std::vector<BoundAccess> accesses;
   std::vector<Output> outputs;
-  std::vector<Carried> carried;  ///< of a relocation
-  std::vector<Bounded> bounded;  ///< variables that it writes, with bounds
-  std::vector<int> freed;        ///< variables whose memory is free afterwards
+  std::vector<Carried> carried;  ///< particle variables moved by a relocation
+  std::vector<Bounded> bounded;  ///< variables with bounds that the task writes
+  std::vector<int> freed;        ///< variables whose memory is freed after the task
   std::vector<Output> shared;  ///< variables of which patches write only their own nodes, and then exchange the others
 };
 
 /// A kept task, with all look-ups resolved in advance for the time loop.
 struct CompiledTask {
   Task task;
-  std::vector<MaterialBinding> materials;       ///< one for a task that belongs to no material
+  /// One binding per material; a single one for a task that does not run over materials.
+  std::vector<MaterialBinding> materials;
   std::vector<BoundGhostFill> fills;            ///< ghost exchanges before it runs
-  int sends = -1;                               ///< the task whose ghosts are sent before this one runs; -1: none
-  std::vector<int> reductions, readReductions;  ///< reductions that it computes, and reads
-  bool mayStartEarly = false;  ///< whether patches whose ghosts are complete may run while others wait for theirs
-  bool isLast = false;         ///< whether it is the last of its graph
-  int recomputeTimeStep = -1;  ///< index of that reduction, if the task may request a repetition of the step
-  double seconds = 0;          ///< time spent in it so far
-  double exchangeSeconds = 0;  ///< part of it spent filling ghosts before the task
+  int sends = -1;                               ///< task whose ghosts are sent before this one runs; -1: none
+  std::vector<int> reductions, readReductions;  ///< reductions that it computes, and reductions that it reads
+  bool mayStartEarly = false;  ///< whether patches whose ghosts are complete may run while others still wait
+  bool isLast = false;         ///< whether it is the last task of its graph
+  /// Index of the reduction recomputeTimeStep, if the task may request a repetition of the step.
+  int recomputeTimeStep = -1;
+  double seconds = 0;          ///< time spent in it so far [s]
+  double exchangeSeconds = 0;  ///< part of it spent on filling ghosts before the task [s]
 
-  /// The binding of a material (-1 for a task that belongs to none).
+  /// The binding of a material (-1 for a task that does not run over materials).
   const MaterialBinding& of(int material) const {
     return materials[task.perMaterial() ? static_cast<std::size_t>(material) : 0];
   }
@@ -53,11 +55,12 @@ struct CompiledTask {
 /// A compiled task list.
 ///
 /// prune → connect → place → plan → lifetimes, each a function of its own; here their results are bound to the
-/// variables of a run. Compile every list of a run before the warehouse first allocates: ghost widths add up.
+/// variables of a run. Compile every list of a run before the warehouse first allocates memory, because all lists
+/// together determine the ghost widths.
 class TaskGraph {
  public:
   TaskGraph() = default;
-  /// Throws TaskError if a list makes particles without all variables that are needed later.
+  /// Throws TaskError if a list makes particles without all variables that later tasks need.
   TaskGraph(std::string name, Pruned pruned, const grid::Grid& grid, data::VariableTable& table);
 
   const std::string& name() const { return name_; }
@@ -66,20 +69,20 @@ class TaskGraph {
   const std::vector<LeftOut>& leftOut() const { return pruned_.leftOut; }
   const std::vector<Dependency>& dependencies() const { return dependencies_; }
   const std::vector<Placement>& placements() const { return placements_; }
-  /// Variables that are new at the end and become old in the swap.
+  /// Variables that are new at the end of the graph and become old at the end of the step.
   const std::vector<int>& results() const { return results_; }
-  /// Reductions that its tasks compute.
+  /// Reductions that the graph's tasks compute.
   const std::vector<int>& reductions() const { return reductions_; }
-  /// Materials whose particle set is new at the end.
+  /// Materials that have a new particle set at the end.
   const std::vector<int>& changedSets() const { return changed_sets_; }
-  /// Largest number of materials of any task.
+  /// Largest number of materials in any task.
   int materials() const { return materials_; }
 
-  /// The tasks in order with what each reads and writes.
+  /// Prints the tasks in order, with the variables that each reads and writes.
   void print(std::ostream& out) const;
-  /// The tasks left out, and why.
+  /// Prints the tasks that were left out, and why.
   void printLeftOut(std::ostream& out) const;
-  /// The tasks and dependencies in Graphviz's language.
+  /// Prints the tasks and dependencies in Graphviz's language.
   void printDot(std::ostream& out) const;
 
  private:

@@ -11,11 +11,11 @@ namespace tushar::tasks {
 
 /// The tasks of one phase of a run, in the order in which a component declares them.
 ///
-/// A task is added as one starts a std::thread: a function and its arguments. Each access becomes one parameter of
-/// the body, so a body can neither read what it did not declare nor forget what it did.
+/// A task is added in the same way as a std::thread is started: a function and its arguments. Each access becomes one
+/// parameter of the body, so a body can neither read an undeclared variable nor forget a declared one.
 class TaskList {
  public:
-  /// Runs `body(patch, arguments...)` on each patch.
+  /// Adds a task that runs `body(patch, arguments...)` on each patch.
   template <class Body, class... Arguments>
   void perPatch(std::string_view name, Body body, Arguments... arguments) {
     check<false, false, Arguments...>();
@@ -28,8 +28,8 @@ class TaskList {
         });
   }
 
-  /// Runs `body(patch, material, arguments...)` on each patch, for each of `materials`, which must outlive the list
-  /// and have a `name`. The labels are variables of the material.
+  /// Adds a task that runs `body(patch, material, arguments...)` on each patch, for each of `materials`, which must
+  /// outlive the list and have a `name`. The labels are variables of the material.
   template <class Material, class Body, class... Arguments>
   void perMaterial(std::string_view name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<false, false, Arguments...>();
@@ -40,8 +40,8 @@ class TaskList {
         });
   }
 
-  /// Runs `body(patch, materials, arguments...)` once on each patch, with all materials: an access to a label becomes a
-  /// std::vector of views, one for each material.
+  /// Adds a task that runs `body(patch, materials, arguments...)` once on each patch, with all materials: an access to
+  /// a label becomes a std::vector of views, one for each material.
   template <class Material, class Body, class... Arguments>
   void acrossMaterials(std::string_view name, Body body, const std::vector<Material>& materials,
                        Arguments... arguments) {
@@ -55,8 +55,8 @@ class TaskList {
         Sees::allMaterials);
   }
 
-  /// Runs `body(patches, arguments...)` once on a rank, for work that needs all patches at once, such as a linear
-  /// solve: an access to a label becomes a std::vector of views, one for each patch.
+  /// Adds a task that runs `body(patches, arguments...)` once on a rank, for work that needs all patches together, such
+  /// as a linear solve: an access to a label becomes a std::vector of views, one for each patch.
   template <class Body, class... Arguments>
   void perRank(std::string_view name, Body body, Arguments... arguments) {
     check<false, true, Arguments...>();
@@ -69,8 +69,8 @@ class TaskList {
         Sees::rank);
   }
 
-  /// Runs `body(patches, materials, arguments...)` once on a rank, for variables of materials: an access becomes
-  /// `views[patch][material]`.
+  /// Adds a task that runs `body(patches, materials, arguments...)` once on a rank, for variables of materials: an
+  /// access becomes `views[patch][material]`.
   template <class Material, class Body, class... Arguments>
   void perRankAcrossMaterials(std::string_view name, Body body, const std::vector<Material>& materials,
                               Arguments... arguments) {
@@ -84,8 +84,8 @@ class TaskList {
         Sees::rank);
   }
 
-  /// Runs `body(patch, material, maker, arguments...)`: the new particles replace those of the patch. Particle
-  /// variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
+  /// Adds a task that runs `body(patch, material, maker, arguments...)`: the new particles replace those of the patch.
+  /// The task must create all particle variables that are needed afterwards; node and cell variables stay.
   template <class Material, class Body, class... Arguments>
   void newParticles(std::string_view name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<true, false, Arguments...>();
@@ -96,8 +96,8 @@ class TaskList {
         });
   }
 
-  /// From here on, every particle is in the cell and on the patch that contain its `position`, which must have been
-  /// computed before. All particle variables that are needed afterwards go with it.
+  /// Adds a relocation: afterwards, every particle is in the cell and on the patch that contain its `position`, which
+  /// an earlier task must have computed. All particle variables that are needed afterwards are moved as well.
   template <class Material, int D>
   void relocate(const data::ParticleLabel<Vec<D>>& position, const std::vector<Material>& materials) {
     add({"relocate", TaskKind::relocate, names(materials), {{&position, AccessKind::requiresNew, 0}}, {}});
@@ -107,12 +107,12 @@ class TaskList {
   void add(Task task);
 
  private:
-  /// The scope of one call of a body.
+  /// What one call of a body receives.
   enum class Sees { patch, allMaterials, rank };
 
   void add(std::string_view name, TaskKind kind, std::vector<std::string>&& materials, std::vector<Access>&& accesses,
            TaskBody&& body, Sees sees = Sees::patch);
-  /// Refuses arguments that are meaningless for a kind of task.
+  /// Rejects, at compile time, arguments that are meaningless for a kind of task.
   template <bool makesParticles, bool isOnRank, class... Arguments>
   static constexpr void check() {
     static_assert(makesParticles || !(isCreation<Arguments> || ...), "creates(...) is allowed only in newParticles");

@@ -14,7 +14,7 @@ using grid::Box;
 
 namespace {
 
-/// Values of cells in memory, and the distances between those of neighbours.
+/// The values of cells in memory, and the distances in memory between neighbours.
 template <class Number>
 class Cells {
  public:
@@ -75,7 +75,7 @@ void meansOf(const Box& box, const CellValues& from, const CellValues& means, in
   components == D ? meansOf<D, D>(box, from, means, components) : meansOf<D, 0>(box, from, means, components);
 }
 
-/// The children of a coarse cell, by one bit for each axis, that are in a box.
+/// The children of a coarse cell that lie in a box; one bit per axis identifies a child.
 template <int D>
 unsigned childrenIn(const Box& box, const Index3& first) {
   unsigned inside = 0;

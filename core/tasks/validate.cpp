@@ -62,8 +62,8 @@ class Validator {
       complain(task, access, "is computed a second time; use modifies to change it");
   }
 
-  /// Whether an access reads ghosts of particles in place: patches of a rank read one another's particles directly;
-  /// only new particles wait until all are made.
+  /// Whether an access reads ghosts of particles in place: the patches of a rank read one another's particles directly,
+  /// except for new particles, which are installed only when all patches have made theirs.
   static bool isGhostsOfParticles(const Access& access) {
     return access.kind == AccessKind::requiresNew && access.ghost > 0 &&
            access.label->centring == data::Centring::particle;
@@ -87,7 +87,7 @@ class Validator {
 
   const Names& state_;
   Names produced_;
-  Names carried_;  ///< variables that a relocation transferred from the old state
+  Names carried_;  ///< names of variables that a relocation transferred from the old state
   std::map<std::string, bool> per_material_;
   std::string complaints_;
 };

@@ -13,11 +13,11 @@ using Names = std::set<std::string, std::less<>>;
 /// Names of the variables that exist after the tasks of a list.
 Names producedBy(const std::vector<Task>& tasks);
 
-/// Step 1 of compiling: every variable that is read has been written.
+/// Step 1 of compiling: checks that every variable that is read has been written.
 ///
-/// `state` names what there is at the start of the step. Throws TaskError with one line for each mistake, naming
-/// task, label and the nearest candidate: a missing producer, a variable computed twice, a label that is used both
-/// with and without a material, particles read beyond a relocation without having been computed.
+/// `state` lists the variables that exist at the start of the step. Throws TaskError with one line for each mistake,
+/// naming task, label and the nearest candidate: a missing producer, a variable computed twice, a label that is used
+/// both with and without a material, particles read after a relocation without having been computed.
 void validate(const std::vector<Task>& tasks, const Names& state);
 
 }  // namespace tushar::tasks

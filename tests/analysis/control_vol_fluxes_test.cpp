@@ -5,7 +5,7 @@
 namespace tushar::analysis {
 namespace {
 
-/// 4 x 3 cells of .5 m x .2 m, one of 1 m along z.
+/// A domain of 4 x 3 cells of .5 m x .2 m, one cell of 1 m along z.
 grid::Domain domain() {
   grid::Domain domain;
   domain.upper = {2, .6, 0};
@@ -13,7 +13,7 @@ grid::Domain domain() {
   return domain;
 }
 
-/// What flows through the sides of a box of a gas whose density is 1 + the number of the cell along x.
+/// Returns the fluxes through the sides of a box for a gas whose density is 1 + the cell's index along x.
 std::vector<double> flowOf(const Level& level, const Box& box, const Vec<2>& v) {
   const Patch patch(level, 0, level.cells());
   std::vector<double> densities(level.cells().size());

@@ -14,7 +14,7 @@ using simulation::Simulation;
 
 namespace {
 
-/// The error of a variable of the shock and the bubble after a step of a nanosecond, against a formula.
+/// Returns the error of a variable of the shock-bubble scene after a step of 1 ns, compared with a formula.
 report::ErrorNorms errorOf(const std::string& label, const std::string& formula,
                            const std::vector<std::string>& more = {}) {
   const std::string module = "DataAnalysis/Module/";

@@ -5,7 +5,7 @@
 namespace tushar::analysis {
 namespace {
 
-/// 10 x 1 x 5 cells of .1 m; y is not in use.
+/// A domain of 10 x 1 x 5 cells of .1 m; the y axis is not in use.
 grid::Domain domain() {
   grid::Domain domain;
   domain.upper = {1, 0, .5};

@@ -10,7 +10,7 @@
 namespace tushar::analysis {
 namespace {
 
-/// At which of some times since the start, which is at 0, a sample is due.
+/// Returns those of the given times at which a sample is due; the run starts at time 0.
 std::vector<double> due(SampleTimes times, const std::vector<double>& steps) {
   std::vector<double> found;
   for (const double t : steps) {

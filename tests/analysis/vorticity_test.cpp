@@ -5,7 +5,7 @@
 namespace tushar::analysis {
 namespace {
 
-/// The vorticity of a velocity that is linear in the place: the same in every cell, also at the sides.
+/// Checks the vorticity of a velocity that is linear in space: the same in every cell, also at the sides.
 template <int D>
 void expectCurl(const grid::Domain& domain, const Eigen::Matrix3d& slope, const Vec3& curl) {
   const Level level(domain);

@@ -13,7 +13,7 @@ namespace tushar {
 
 namespace {
 
-/// What is understood of a launcher that sets these variables, and no other does.
+/// Returns what is read from a launcher that sets these variables and no others.
 std::array<int, 4> understood(const std::map<std::string, std::string>& set) {
   std::list<test::Environment> variables;
   for (const char* name :

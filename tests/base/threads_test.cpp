@@ -17,7 +17,7 @@ namespace {
 
 constexpr int counts[] = {1, 2, 3, 8};
 
-/// What comes out of a loop of which the numbers in `failing` throw their own names, and how many ran.
+/// Runs a loop whose indices in `failing` throw their own numbers; returns the message caught and the number of calls.
 std::pair<std::string, int> failureOf(Threads& threads, const std::vector<int>& failing, int times) {
   std::atomic<int> calls = 0;
   try {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace tushar;
 
-/// The time loop alone of Sod's tube, nothing saved, as the run's report measures it.
+/// Measures the time loop of Sod's tube alone, with nothing saved, as the run's report gives it.
 void framework(::benchmark::State& state) {
   const std::string resolution = "Grid/Level/Box/resolution=[" + std::to_string(state.range(0)) + ",1,1]";
   simulation::RunOptions options;

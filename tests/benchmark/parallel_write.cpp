@@ -22,7 +22,7 @@ namespace {
 
 constexpr hsize_t width = 4096;
 
-/// The part of a rank: `extent` values along each axis from `first` on.
+/// The part of an array that belongs to a rank: `extent` values along each axis from `first` on.
 struct Part {
   hsize_t first[2], extent[2];
   std::vector<double> values;
@@ -42,7 +42,7 @@ void writePart(hid_t file, hid_t data, const Part& part, hid_t transfer) {
   H5Sclose(memory);
 }
 
-/// Makes a file that is opened with `access`; `write(file space, dataset)` fills it.
+/// Creates a file that is opened with the properties `access`; `write(file space, dataset)` writes its dataset.
 template <class Write>
 void writeFile(const std::string& path, hid_t access, const Write& write) {
   const hsize_t shape[] = {width, width};
@@ -56,7 +56,7 @@ void writeFile(const std::string& path, hid_t access, const Write& write) {
   H5Fclose(file);
 }
 
-/// The values of the parts in some rows.
+/// Copies the values of several parts into a block of rows.
 void assemble(const std::vector<const Part*>& parts, Part& rows) {
   for (hsize_t row = 0; row < rows.extent[0]; ++row)
     for (const Part* part : parts) {
@@ -76,7 +76,7 @@ void writeTogether(const std::string& path, const Part& part) {
   H5Pclose(access);
 }
 
-/// Rows for a megabyte at a time, as the archive does it.
+/// Collects the parts on the first rank, which writes them as rows, a megabyte at a time, as the archive does.
 void writeByFirst(const std::string& path, const Part& own, int rank, int ranks, bool columns) {
   const auto count = static_cast<int>(own.values.size());
   if (rank > 0) {
@@ -98,7 +98,7 @@ void writeByFirst(const std::string& path, const Part& own, int rank, int ranks,
   });
 }
 
-/// Seconds until a new file is on the disk.
+/// Returns the seconds until a new file is on the disk.
 template <class Write>
 double timed(const std::string& path, int rank, const Write& write) {
   MPI_Barrier(MPI_COMM_WORLD);

@@ -22,7 +22,7 @@ class PlainLoop {
     bin();
   }
 
-  /// To t = 0.2; the number of steps.
+  /// Runs to t = 0.2 and returns the number of steps.
   int run() {
     const double end = 0.2;
     int steps = 0;

@@ -16,7 +16,7 @@ using data::CellLabel;
 using data::CellView;
 using grid::Patch;
 
-/// A list of tasks that do nothing, but may read ghosts.
+/// A list of tasks that do nothing, but may read ghost cells.
 class Chain {
  public:
   explicit Chain(int length, int ghost = 0) {
@@ -42,12 +42,12 @@ class Chain {
 
 grid::Domain line(int patches) { return test::domain({{patches, 1, 1}}, {{patches, 1, 1}}); }
 
-/// Nanoseconds of each of `times` parts of an iteration.
+/// Returns a counter of the nanoseconds per part, with `times` parts in an iteration.
 ::benchmark::Counter nanosecondsOf(double times) {
   return {times * 1e-9, ::benchmark::Counter::kIsIterationInvariantRate | ::benchmark::Counter::kInvert};
 }
 
-/// Arguments: tasks, patches, threads.
+/// Benchmark arguments: number of tasks, patches and threads.
 void execute(::benchmark::State& state) {
   const Chain chain(static_cast<int>(state.range(0)));
   test::Runner run(line(static_cast<int>(state.range(1))), static_cast<int>(state.range(2)));
@@ -57,7 +57,7 @@ void execute(::benchmark::State& state) {
   state.counters["wall_ns_per_execution"] = nanosecondsOf(static_cast<double>(state.range(0) * state.range(1)));
 }
 
-/// The same where each task reads the cells next to its patch. Arguments: tasks, patches, threads.
+/// As `execute`, but each task reads a layer of ghost cells. Arguments: number of tasks, patches and threads.
 void exchange(::benchmark::State& state) {
   const Chain chain(static_cast<int>(state.range(0)), 1);
   test::Runner run(line(static_cast<int>(state.range(1))), static_cast<int>(state.range(2)));
@@ -82,7 +82,7 @@ void create(const Patch& patch, const Material&, tasks::ParticleMaker& maker, st
   });
 }
 
-/// One of so many particles goes to the other cell of a pair of cells, and in the next step back.
+/// Moves one of every `one` particles to the other cell of a pair of cells, and back in the next step.
 void moveSome(const Patch& patch, const Material&, int one, data::ParticleView<const Vec<1>> from,
               data::ParticleView<const ParticleId> ids, data::ParticleView<Vec<1>> to) {
   for (int p = 0; p < from.owned(); ++p) {
@@ -110,7 +110,7 @@ void relocate(::benchmark::State& state) {
   state.counters["wall_ns_per_particle"] = nanosecondsOf(static_cast<double>(cells * perCell));
 }
 
-/// Arguments: tasks, patches.
+/// Benchmark arguments: number of tasks and patches.
 void compile(::benchmark::State& state) {
   const Chain chain(static_cast<int>(state.range(0)));
   const grid::Grid grid(line(static_cast<int>(state.range(1))));

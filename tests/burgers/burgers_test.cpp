@@ -19,7 +19,7 @@ grid::Domain line(int cells) {
   return domain;
 }
 
-/// u after Euler's step of `dt` in one dimension, on plain fields.
+/// Returns u after an Euler step of `dt` in one dimension, computed on plain arrays.
 std::vector<double> predicted(const grid::Domain& domain, std::vector<double> u, double dt, const Settings& settings) {
   const Grid grid(domain);
   const Level& level = grid.level();
@@ -44,7 +44,7 @@ report::Report run(std::vector<std::string> overrides) {
   return simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run();
 }
 
-/// Order of the L1 error between 100 and 200 cells.
+/// Returns the order of convergence of the L1 error between 100 and 200 cells.
 double order(const std::vector<std::string>& overrides) {
   const auto error = [&](const std::string& cells) {
     std::vector<std::string> all = overrides;

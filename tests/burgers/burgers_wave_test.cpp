@@ -9,12 +9,12 @@ namespace tushar::burgers {
 
 namespace {
 
-/// 1 + sin(2 pi x) / 2, which breaks at t = 1 / pi where u = 1.
+/// The initial wave 1 + sin(2 pi x) / 2, which breaks at t = 1 / pi where u = 1.
 BurgersProblem sine(double viscosity = 0) {
   return {[](double x) { return 1 + 0.5 * std::sin(2 * M_PI * x); }, viscosity, 0, 1, true};
 }
 
-/// `left` below 0, `right` above: on [-1, 1], where 0 is a place of the table.
+/// A step at x = 0 from `left` to `right` on [-1, 1], where 0 is a point of the table.
 BurgersProblem step(double left, double right, double viscosity = 0) {
   return {[=](double x) { return x < 0 ? left : right; }, viscosity, -1, 1, false};
 }

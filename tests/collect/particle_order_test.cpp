@@ -17,7 +17,7 @@ struct Dust {
 const std::vector<Dust> dusts{{"fine"}};
 const ParticleLabel<Vec<2>> position{"p.x", "m", "position"};
 
-/// 32 x 32 cells, of which some are divided into 4 x 4.
+/// A domain of 32 x 32 cells, some of which are divided into 4 x 4.
 grid::Domain refined(int blocksPerPatch) {
   grid::Domain domain;
   domain.upper = {1, 1, 0};
@@ -28,7 +28,7 @@ grid::Domain refined(int blocksPerPatch) {
   return domain;
 }
 
-/// Particles of ids that fall up the grid, none to two in each of the finest cells.
+/// Creates zero to two particles in each of the finest cells, with ids that decrease along the grid.
 void scatter(const Patch& patch, const Dust&, ParticleMaker& maker, std::vector<Vec<2>>& x) {
   if (patch.level().number() < 2) return;
   forEach<2>(patch.cells(), [&](const Index<2>& cell) {
@@ -59,7 +59,7 @@ class Scattered : public test::Runner {
     return ids;
   }
 
-  /// Number of particles of each cell.
+  /// Returns the number of particles of each cell.
   std::vector<std::int32_t> perCell() {
     const ParticleOrder order(warehouse, 0);
     const auto source = order.perCell();

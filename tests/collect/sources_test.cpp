@@ -17,7 +17,7 @@ Part partOf(const std::vector<double>& values) {
   return {reinterpret_cast<const std::byte*>(values.data()), values.size()};
 }
 
-/// What a source gives when it is asked for so many entries at a time.
+/// Reads a source in pieces of the given number of entries and returns all values.
 std::vector<double> readBy(const output::Source& source, std::size_t piece, std::size_t numbers) {
   std::vector<double> values(source.entries() * numbers);
   for (std::size_t first = 0; first < source.entries(); first += piece)

@@ -26,7 +26,7 @@ const NodeLabel<Vec<2>> wind{"g.wind", "m/s", "wind"};
 const CellLabel<double> heat{"c.heat", "K", "temperature"};
 const ReductionLabel<Sum> total{"Total", "K", "sum of heat"};
 
-/// Three particles in each second cell, fewer and fewer ids up the grid, so that the order is no accident.
+/// Creates three particles in every second cell, with ids that decrease along the grid, so that they need sorting.
 void scatter(const Patch& patch, const Dust& dust, ParticleMaker& maker, std::vector<Vec<2>>& x,
              std::vector<int>& marks) {
   forEach<2>(patch.cells(), [&](const Index<2>& cell) {
@@ -55,7 +55,7 @@ void look(const Patch&, const Dust&, NodeView<const Vec<2>>, CellView<const doub
 
 const ReductionLabel<Sum> copy{"Copy", "K", "what a task saw of the sum"};
 
-/// A run of a start and of a task that reads all of it, ghosts included.
+/// A runner with an initial task list and a task that reads every variable, with ghost cells.
 class Weather : public test::Runner {
  public:
   explicit Weather(const Index3& patches, const Index3& cells = {{7, 5, 1}}) : Runner(test::domain(cells, patches)) {

@@ -179,7 +179,7 @@ TEST(BufferPool, GivesUpWhatAWholeStepDidNotNeed) {
   EXPECT_EQ(pool.free(), 0u);
 }
 
-/// A set on a grid of 5 x 4 x 3 cells, some without particles.
+/// A particle set on a grid of 5 x 4 x 3 cells, some of them without particles.
 ParticleSet someCells(const grid::Grid& grid) {
   ParticleSet set;
   set.reset(grid.patches().front(), 0);

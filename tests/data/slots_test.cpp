@@ -6,7 +6,7 @@ namespace tushar::data {
 
 namespace {
 
-/// No two slots share a place.
+/// Whether no two slots overlap.
 bool areDisjoint(const Slots& slots) {
   for (std::size_t a = 0; a < slots.first.size(); ++a)
     for (std::size_t b = a + 1; b < slots.first.size(); ++b)
@@ -38,7 +38,7 @@ TEST(Slots, MoveBehindAllOthersWhereAPatchHasOutgrownItsOwn) {
   EXPECT_TRUE(areDisjoint(*grown));
 }
 
-/// Whether no slot reaches over one that another patch had before.
+/// Whether no slot overlaps one that another patch had before.
 bool leavesOthersAlone(const Slots& now, const Slots& before) {
   for (std::size_t a = 0; a < now.first.size(); ++a)
     for (std::size_t b = 0; b < now.first.size(); ++b)

@@ -14,7 +14,7 @@ namespace {
 
 using grid::Box;
 
-/// Two particles in some cells of a grid of one patch.
+/// Particles on a grid of one patch: two in each of some cells.
 template <class Holds>
 ParticleSet particlesIn(const grid::Grid& grid, const Holds& holds) {
   ParticleSet set;
@@ -29,7 +29,7 @@ ParticleSet particlesIn(const grid::Grid& grid, const Holds& holds) {
   return set;
 }
 
-/// The first and the last node of each row of a box that some cell with particles touches.
+/// The first and the last node of each row of a box that belong to a cell with particles.
 template <class Holds>
 std::map<std::pair<int, int>, std::pair<int, int>> expectedRows(const Box& cells, const Box& nodes, int ghost,
                                                                 int dimension, const Holds& holds) {

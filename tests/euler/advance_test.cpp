@@ -13,7 +13,7 @@ class AdvanceInEachDimension : public testing::Test {};
 using Dimensions = testing::Types<Dimension<1>, Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(AdvanceInEachDimension, Dimensions);
 
-/// Cells along an axis: beyond a block along the first axis in 1-D and 2-D.
+/// Number of cells along an axis: more than one block along the first axis in 1-D and 2-D.
 template <int D>
 constexpr int cellsAlong = D == 1   ? 300
                            : D == 2 ? 30

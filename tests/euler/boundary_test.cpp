@@ -21,7 +21,7 @@ grid::BoundaryCondition given(const grid::BoundaryVariable& label, double value,
   return {label, BoundaryKind::dirichlet, Vec3(value, 0, 0), material};
 }
 
-/// The state beyond the lower side of a line of cells with density 1, velocity .3 and pressure 2.
+/// Returns the ghost state at the lower side of a line of cells with density 1, velocity .3 and pressure 2.
 State<1> beyond(const Conditions& conditions, Gas gas = air()) {
   grid::Domain domain = openBox(1, 4);
   domain.boundaries.face(0, 0) = conditions;
@@ -40,7 +40,7 @@ grid::BoundaryCondition varying(const grid::BoundaryVariable& label, const std::
   return condition;
 }
 
-/// The state of a square of 4 x 4 cells, and of two beyond each side, with parts on x-; its density counts the cells.
+/// The states of 4 x 4 cells and two layers of ghost cells, with side parts on x-; the density numbers the cells.
 class Square {
  public:
   explicit Square(const grid::Domain& domain, double time = 0) : grid_(domain) {
@@ -58,7 +58,7 @@ class Square {
   Rows<2> rows_{64};
 };
 
-/// Walls around, and a jet of density 9 through the faces of cells (0, 0) and (0, 1) on x-.
+/// A domain with walls all around, and a jet of density 9 through the faces of cells (0, 0) and (0, 1) on x-.
 grid::Domain withJet() {
   grid::Domain domain = closedBox(2, 4);
   domain.boundaries.parts[0] = {{grid::SidePart::rectangle(0, Vec3::Zero(), Vec3(0, 0.5, 1)),

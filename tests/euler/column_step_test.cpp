@@ -8,7 +8,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// States of all cells of a level.
+/// The states of all cells of a level.
 struct Fields {
   explicit Fields(const Level& level)
       : cells(level.cells()), density(cells.size()), energy(cells.size()), momentum(cells.size()) {}
@@ -35,7 +35,7 @@ Fields roughFields(const Level& level, const StiffenedGas& gas) {
   return fields;
 }
 
-/// A level of so many cells along each axis, with walls around it, or open.
+/// A level with the given resolution and either walls or open sides all around.
 grid::Domain boxOf(const Index3& resolution, bool hasWalls) {
   grid::Domain domain = hasWalls ? closedBox(3, 1) : openBox(3, 1);
   domain.resolution = resolution;

@@ -21,7 +21,7 @@ ColdCurve murnaghanCurve() {
           .compressibility = 3.9e-11,
           .pressureThere = 5e9};
 }
-/// The explosive of Uintah's riemann_grun.ups, A = 1.3338e9 Pa, B = 7.027e5 Pa/K.
+/// The explosive of Uintah's riemann_grun.ups: A = 1.3338e9 Pa, B = 7.027e5 Pa/K.
 ColdCurve linearCurve() {
   return {.kind = ColdCurve::Kind::linear, .density = 1823.3, .a = 1.3338e9, .pressureThere = 101325 - 7.027e5 * 317.4};
 }
@@ -79,7 +79,7 @@ double energyAt(const Gas& gas, double rho, double temperature) {
 
 TubeState stateAt(const Gas& gas, double rho, double temperature) { return {rho, 0, gas.lastAt(rho, temperature)}; }
 
-/// Mean error of density over what it differs by in a shock tube that stands until the fastest wave has gone .4.
+/// Mean density error of a shock tube, relative to the mean change, when the fastest wave has travelled .4.
 double tubeError(const Gas& gas, const TubeState& left, const TubeState& right, int cells, double cfl = 0.5) {
   const CurvedRiemann exact(gas, left, right);
   const double fastest = std::sqrt(std::max(gas.soundSpeedSquared(left.density, left.last),

@@ -11,20 +11,20 @@
 
 namespace tushar::euler {
 
-/// Density, velocity and the last number of a gas's state.
+/// Density, velocity and the last component of a gas state.
 struct TubeState {
   double density = 0, velocity = 0, last = 0;
 };
 
-/// One outer wave of a shock tube: what it leaves behind, between the state in front of it and the contact.
+/// One outer wave of a shock tube: the states between the gas in front of it and the contact.
 class OuterWave {
  public:
-  /// `sign` is -1 of the wave to the left, 1 of that to the right.
+  /// `sign` is -1 for the wave to the left, 1 for the wave to the right.
   OuterWave(const Gas& gas, const TubeState& front, double sign) : gas_(gas), front_(front), sign_(sign) {}
 
-  /// The state behind the wave at a density, on its Hugoniot or its isentrope.
+  /// Returns the state behind the wave for a density there, on the wave's Hugoniot curve or isentrope.
   TubeState behind(double density) const { return density > front_.density ? shocked(density) : fan(density).back(); }
-  /// The density behind the wave at which the pressure is `pressure`.
+  /// Returns the density behind the wave for a given pressure there.
   double densityAt(double pressure) const {
     double least = 1e-6 * front_.density, most = front_.density;
     while (pressureOf(behind(most)) < pressure) most *= 1.2;
@@ -35,7 +35,7 @@ class OuterWave {
     return 0.5 * (least + most);
   }
   double pressureOf(const TubeState& of) const { return gas_.pressureOf(of.density, of.last); }
-  /// The state at x / t on this side of the contact, if the density behind the wave is `density`.
+  /// Returns the state at x / t on this side of the contact, for a given density behind the wave.
   TubeState at(double xi, double density) const {
     if (density > front_.density) {
       const TubeState back = behind(density);
@@ -78,7 +78,7 @@ class OuterWave {
     return {density, front_.velocity + sign_ * std::sqrt((pressure - before) * shrink),
             gas_.last(density, energyAt(pressure))};
   }
-  /// States from the front to a lower density: du = sign c / rho drho, and de = p / rho² drho.
+  /// States of the rarefaction from the front down to a density: du = sign c / rho drho, and de = p / rho² drho.
   std::vector<TubeState> fan(double density) const {
     constexpr int steps = 50;
     std::vector<TubeState> states{front_};
@@ -107,7 +107,7 @@ class OuterWave {
   double sign_;
 };
 
-/// The exact solution of a shock tube. The gas outlives it.
+/// The exact solution of a shock tube. The gas must outlive it.
 class CurvedRiemann {
  public:
   CurvedRiemann(const Gas& gas, const TubeState& left, const TubeState& right)
@@ -129,7 +129,7 @@ class CurvedRiemann {
   double densityLeft = 0, densityRight = 0;  ///< on its sides
 
  private:
-  /// Whether the gases would still close in on each other at a pressure between them.
+  /// Whether the gases would still approach each other with a pressure p between them.
   bool closes(double p) const {
     return left_.behind(left_.densityAt(p)).velocity > right_.behind(right_.densityAt(p)).velocity;
   }

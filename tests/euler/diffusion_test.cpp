@@ -15,14 +15,14 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// c_v = 2.5 and gamma = 1.4: R = 1, T = p / rho.
+/// A gas with c_v = 2.5 and gamma = 1.4: R = 1, T = p / rho.
 Gas air() {
   Gas gas;
   gas.specificHeat = 2.5;
   return gas;
 }
 
-/// Gas that nothing but diffusion changes.
+/// A gas that changes by diffusion alone.
 template <int D>
 class StillBox : public GasBox<D> {
  public:
@@ -40,7 +40,7 @@ class StillBox : public GasBox<D> {
                         view<const double>(oldEnergy, patch, 1)}},
                       0, dt, view<Vec<D>>(momentum, patch, 0), view<double>(energy, patch, 0), {});
   }
-  /// The same by the task of viscosities that vary.
+  /// As above, by the task for viscosities that vary in space.
   void diffuse(const VaryingDiffusion& varying, double dt) {
     const auto oldMomentum = momentum;
     const auto oldEnergy = energy;
@@ -79,7 +79,7 @@ class StillBox : public GasBox<D> {
   }
 };
 
-/// A box with walls at rest in x at two temperatures.
+/// A box with walls at rest across x, at two temperatures.
 grid::Domain heatedBox(int cells, double lower, double upper) {
   grid::Domain domain = closedBox(1, cells);
   for (int side = 0; side < 2; ++side) {
@@ -91,7 +91,7 @@ grid::Domain heatedBox(int cells, double lower, double upper) {
   return domain;
 }
 
-/// Gas between walls across y, of which the upper one moves at 1 m/s along x.
+/// Gas between two walls across y; the upper wall moves at 1 m/s along x.
 grid::Domain shearedBox() {
   grid::Domain domain = closedBox(2, 16);
   domain.resolution[0] = 2;

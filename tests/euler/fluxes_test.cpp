@@ -24,7 +24,7 @@ State<D> mirrored(State<D> w) {
   return w;
 }
 
-/// Numbers agree to `tolerance` of the greatest of them.
+/// Expects that values agree to `tolerance`, relative to the largest of them.
 template <class S>
 void expectNear(const S& found, const S& expected, double tolerance) {
   double size = 0;

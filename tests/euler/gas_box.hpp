@@ -9,7 +9,7 @@
 
 namespace tushar::euler {
 
-/// The unit line, square or cube, with `cells` along each axis and walls around it.
+/// The unit line, square or cube with `cells` cells along each axis and walls all around.
 inline grid::Domain closedBox(int dimension, int cells) {
   grid::Domain domain;
   for (int axis = 0; axis < 3; ++axis) {
@@ -20,7 +20,7 @@ inline grid::Domain closedBox(int dimension, int cells) {
   return domain;
 }
 
-/// The same without walls, open on all sides.
+/// As closedBox(), but open on all sides.
 inline grid::Domain openBox(int dimension, int cells) {
   grid::Domain domain = closedBox(dimension, cells);
   for (int axis = 0; axis < dimension; ++axis)
@@ -28,7 +28,7 @@ inline grid::Domain openBox(int dimension, int cells) {
   return domain;
 }
 
-/// Gas in a box, stepped by the bodies of the tasks alone.
+/// Gas in a box, advanced by direct calls of the tasks' functions.
 template <int D>
 class GasBox {
  public:
@@ -114,7 +114,7 @@ class GasBox {
 inline State<1> gasAt(double density, double velocity, double pressure) { return {density, velocity, pressure}; }
 inline State<1> sodGas(const Vec<1>& x) { return x[0] < 0.5 ? gasAt(1, 0, 1) : gasAt(0.125, 0, 0.1); }
 
-/// A state without any symmetry, with jumps: numbers from a hash of the cell's middle.
+/// A state with jumps and without any symmetry: hashes of the cell centres.
 template <int D>
 State<D> roughGas(const Vec<D>& x) {
   State<D> w;

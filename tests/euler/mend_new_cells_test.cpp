@@ -8,7 +8,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// A gas at rest on 4 x 4 cells, of 2.5 J/m³: a pressure of 1 Pa.
+/// A gas at rest on 4 x 4 cells with 2.5 J/m³, that is a pressure of 1 Pa.
 struct Plate {
   Grid grid{closedBox(2, 4)};
   std::vector<double> density = std::vector<double>(16, 1), energy = std::vector<double>(16, 2.5);

@@ -15,12 +15,12 @@ double densityError(Overrides overrides, int cells) {
   return -1;
 }
 
-/// Sod's scene with a piece of text replaced.
+/// Returns Sod's scene with a piece of text replaced.
 std::string changedScene(const std::string& from, const std::string& to) {
   return test::changedScene("ups/euler/sod.ups", from, to);
 }
 
-/// What is wrong with the scene, without its place.
+/// Returns the error message for a scene, without its place.
 std::string problemOf(const std::string& scene) {
   try {
     test::runScene(scene, {});
@@ -88,10 +88,9 @@ TEST(EulerScene, LetsALaterObjectCountWhereTwoOverlap) {
 }
 
 TEST(EulerScene, NamesAFormulaWhoseDensityIsNotPositive) {
-  EXPECT_EQ(
-      problemOf(changedScene("<density>1</density>", "<density>x-0.005</density>")),
-      "density 0 kg/m^3, pressure 1 Pa and velocity (0, 0, 0) m/s at (0.005, 0.5, 0.5); the density and the pressure + "
-      "p_infinity must be positive, and all values finite");
+  EXPECT_EQ(problemOf(changedScene("<density>1</density>", "<density>x-0.005</density>")),
+            "density 0 kg/m^3, pressure 1 Pa and velocity (0, 0, 0) m/s at (0.005, 0.5, 0.5); expected a positive "
+            "density and pressure + p_infinity, and finite values");
 }
 
 TEST(EulerScene, RefusesStiffnessOfAnIdealGas) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double far = 1 / 1.4;  // pressure at which the speed of sound is 1 where the density is
 
-/// A tube with a wall at 0, or open there too, that lets waves out at 1.
+/// A tube with a non-reflecting side at 1 and either a wall or another such side at 0.
 grid::Domain tube(int cells, double sigma, bool hasWall) {
   grid::Domain domain = closedBox(1, cells);
   for (int side = hasWall ? 1 : 0; side < 2; ++side) {
@@ -21,7 +21,7 @@ grid::Domain tube(int cells, double sigma, bool hasWall) {
   return domain;
 }
 
-/// The mean of p - p_far, and the greatest.
+/// Returns the mean and the largest value of p - p_far.
 std::pair<double, double> excess(const GasBox<1>& box) {
   double mean = 0, most = 0;
   for (std::size_t i = 0; i < box.density.size(); ++i) {
@@ -32,7 +32,7 @@ std::pair<double, double> excess(const GasBox<1>& box) {
   return {mean, most};
 }
 
-/// Sound of a small height that runs to x+.
+/// A sound pulse of small amplitude that travels towards x+.
 State<1> pulse(const Vec<1>& x) {
   const double rise = 1e-4 * std::exp(-200 * (x[0] - 0.5) * (x[0] - 0.5));
   return gasAt(1 + rise, rise, far + rise);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int everything = 1 << 20;
 
-/// A tree with some blocks refined by chance.
+/// A tree with randomly chosen blocks refined.
 BlockTree refinedByChance(int dimension, const Index3& roots, const Index3& periodic, unsigned seed) {
   std::mt19937 random(seed);
   const BlockTree tree(dimension, roots, periodic, 4);
@@ -41,7 +41,7 @@ Index3 cellsPerBlock(const BlockTree& tree) {
   return cells;
 }
 
-/// How many patches hold each cell of the finest level, in lexicographic order.
+/// Returns the number of patches that contain each cell of the finest level, in lexicographic order.
 std::vector<int> timesCovered(const BlockTree& tree, const std::vector<PatchBox>& patches) {
   Box all{{}, tree.blocksOf(tree.levels() - 1)};
   for (int d = 0; d < 3; ++d) all.upper[d] *= cellsPerBlock(tree)[d];

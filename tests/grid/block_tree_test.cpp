@@ -15,7 +15,7 @@ namespace {
 
 using Blocks = std::vector<BlockId>;
 
-/// A grid to refine: small enough to look at every block of the finest level.
+/// A grid to refine, small enough for every block of the finest level to be checked.
 struct Case {
   int dimension;
   Index3 roots, periodic;
@@ -30,7 +30,7 @@ const std::vector<Case> cases = {
     {3, {{2, 1, 3}}, {{0, 0, 0}}, 4}, {3, {{1, 2, 1}}, {{1, 0, 1}}, 4}, {3, {{1, 1, 1}}, {{1, 1, 1}}, 4},
 };
 
-/// Blocks of any level but the last, in no order; some may be there twice.
+/// Returns random blocks of any level but the last, unsorted and with possible repetitions.
 Blocks chosen(const BlockTree& tree, int count, std::mt19937& random) {
   Blocks blocks;
   for (int k = 0; k < count; ++k) {
@@ -42,7 +42,7 @@ Blocks chosen(const BlockTree& tree, int count, std::mt19937& random) {
   return blocks;
 }
 
-/// The blocks of the finest level in the place of a block.
+/// Returns the blocks of the finest level that a block covers.
 Box finestOf(const BlockTree& tree, const BlockId& block) {
   Box finest{{}, Index3::filled(1)};
   const int factor = 1 << (tree.levels() - 1 - block.level);
@@ -53,7 +53,7 @@ Box finestOf(const BlockTree& tree, const BlockId& block) {
   return finest;
 }
 
-/// The level of the leaf in each place of the finest level, -1 where there is none, -2 where there are several.
+/// The level of the leaf at each block of the finest level; -1 where there is none, -2 where there are several.
 struct Map {
   explicit Map(const BlockTree& of) : tree(of), all{{}, of.blocksOf(of.levels() - 1)}, levels(all.size(), -1) {
     for (const BlockId& leaf : tree.leaves())
@@ -63,7 +63,7 @@ struct Map {
       });
   }
 
-  /// Calls `visit(place, neighbour)` for neighbours over faces, edges and corners, images counted.
+  /// Calls `visit(place, neighbour)` for neighbours across faces, edges and corners, periodic images included.
   template <class Visit>
   void forEachNeighbour(const Index3& periodic, Visit&& visit) const {
     forEach<3>(all, [&](const Index3& at) {
@@ -114,7 +114,7 @@ std::vector<int> slowLevels(const Case& grid, const Blocks& refined) {
   return map.levels;
 }
 
-/// A tree after marks by chance, twice, so that there is something to coarsen.
+/// A tree after two random sets of marks, so that there is something to coarsen.
 BlockTree treeByChance(const Case& grid, std::mt19937& random) {
   const BlockTree first = grid.tree().regridded(chosen(grid.tree(), 3, random), {});
   return first.regridded(chosen(first, 1, random), chosen(first, 20, random));

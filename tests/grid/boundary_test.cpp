@@ -12,7 +12,7 @@ namespace {
 constexpr BoundaryLabel<double> temperature{"Temperature"};
 constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
 
-/// A grid with planes of symmetry all around, but for the conditions of this test on x-.
+/// A grid with symmetry planes all around except on x-, where the conditions of the test apply.
 Domain withConditions() {
   Domain domain = test::domain({{4, 3, 2}});
   domain.boundaries.face(0, 0) = {{temperature, BoundaryKind::dirichlet, Vec3(300, 0, 0)},

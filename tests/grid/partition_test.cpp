@@ -15,7 +15,7 @@ RankOffsets offsetsOf(const Index3& cells, const Index3& patches, int ranks) {
   return Grid(test::domain(cells, patches), {0, ranks}).rankOffsets();
 }
 
-/// How many patches some rank takes for those of another than the offsets say.
+/// Returns the number of patches for which some rank assumes another owner than the offsets give.
 int disagreements(const Index3& cells, const Index3& patches, int ranks) {
   const RankOffsets offsets = offsetsOf(cells, patches, ranks);
   int wrong = 0;

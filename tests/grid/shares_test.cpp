@@ -11,7 +11,7 @@ namespace tushar::grid {
 
 namespace {
 
-/// The least that the rank with most can have, by trying all cuts from `first` on.
+/// Returns the smallest possible maximum load of a rank, by trying all cuts from `first` on.
 double leastOfAll(const std::vector<double>& costs, std::size_t first, int ranks) {
   double share = 0, least = std::numeric_limits<double>::infinity();
   if (ranks == 1) return std::accumulate(costs.begin() + static_cast<std::ptrdiff_t>(first), costs.end(), 0.0);

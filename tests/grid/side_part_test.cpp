@@ -13,7 +13,7 @@ namespace tushar::grid {
 
 namespace {
 
-/// A box with `cells` cells between 0 and 1 m along each axis, and one part on the side x-.
+/// A box of [0, 1] m with `cells` cells along each axis and one part on the side x-.
 Domain withPart(const SidePart& part, int cells = 8) {
   Domain domain = test::domain({{cells, cells, cells}});
   domain.upper = Vec3::Ones();
@@ -21,7 +21,7 @@ Domain withPart(const SidePart& part, int cells = 8) {
   return domain;
 }
 
-/// The faces on x-, a line for each z from 0 on: # for those of the part.
+/// Draws the faces on x-, one line for each z from 0 on: # marks faces of the part.
 std::vector<std::string> facesOf(const SidePart& part, int cells = 8) {
   const Level level(withPart(part, cells));
   std::vector<std::string> lines(static_cast<std::size_t>(cells));

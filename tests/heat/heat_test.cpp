@@ -10,7 +10,7 @@ namespace tushar::heat {
 
 namespace {
 
-/// A domain of unit length along its first D axes whose faces keep temperature 0, or are insulated.
+/// A domain of unit length along its first D axes, whose faces have temperature 0 or are insulated.
 template <int D>
 grid::Domain slab(int cells, bool cold) {
   grid::Domain domain = test::unitBox<D>(cells);
@@ -20,7 +20,7 @@ grid::Domain slab(int cells, bool cold) {
   return domain;
 }
 
-/// Mean of |T - exact| at time 0.02 for a product of sines that dies away.
+/// Mean of |T - exact| at time 0.02 for a product of sines that decays.
 template <int D>
 double errorOfSine(int cells) {
   test::Runner run(slab<D>(cells, true));
@@ -52,7 +52,7 @@ double errorOfSine(int cells) {
   return error.l1();
 }
 
-/// T after one step of `dt` in one dimension, on plain fields.
+/// Returns T after a step of `dt` in one dimension, computed on plain arrays.
 std::vector<double> conducted(const grid::Domain& domain, std::vector<double> temperature, double dt) {
   const Grid grid(domain);
   const Level& level = grid.level();

@@ -15,7 +15,7 @@ using test::problemOf;
 
 const std::string sod = "ups/ice/sod.ups", gases = "ups/ice/two_gases.ups";
 
-/// The tube of sod.ups in two gases: A and B have these constants, and B is where `regions` say.
+/// The tube of sod.ups with two gases A and B of these constants; B is in the `regions`.
 std::string binary(const std::string& constants, const std::string& regions, const std::string& module) {
   std::string scene = changedScene(
       sod, "  <DataAnalysis>",

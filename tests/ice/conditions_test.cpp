@@ -19,7 +19,7 @@ const std::string sod = "ups/ice/sod.ups", channel = "ups/ice/channel.ups", puls
                   shear = "ups/ice/shear_wave.ups";
 const std::string symmetricSide = R"(<Face side="x-"><BCType id="all" label="Symmetric" var="symmetry"/></Face>)";
 
-/// Sod's scene with other conditions at x-, and sections that they need.
+/// Sod's scene with other conditions on x-, and the sections that these need.
 std::string withSide(const std::string& conditions, const std::string& sections = "") {
   return changedScene(sod, symmetricSide, sections + "<Face side=\"x-\">" + conditions + "</Face>");
 }

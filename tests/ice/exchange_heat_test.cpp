@@ -8,7 +8,7 @@ namespace tushar::ice {
 
 namespace {
 
-/// Two bodies and a gas that share a cell.
+/// Two bodies and a gas in the same cell.
 WarmThings<> threeThings() {
   WarmThings<> things(3);
   things.capacity << 4000, 1000, 2;
@@ -21,7 +21,7 @@ Eigen::VectorXd temperaturesAfter(const WarmThings<>& things, const std::vector<
   return things.temperature + changesByHeat(things, {pairs}, dt).temperature;
 }
 
-/// A stiffened gas and an ideal one at a pressure of 3e8 Pa, and a body of 400 K.
+/// A stiffened gas and an ideal gas at a pressure of 3e8 Pa, and a body at 400 K.
 struct CellOfGases {
   euler::Gas water{.gamma = 4.4, .pInfinity = 6e8, .specificHeat = 1000}, air{.gamma = 1.4, .specificHeat = 700};
   double pressure = 3e8, massOfWater = 400, massOfAir = 100;
@@ -38,7 +38,7 @@ struct CellOfGases {
   double energyOf(double volumeOfWater, double volumeOfAir, double p) const {
     return volumeOfWater * water.energyOf(0, p) + volumeOfAir * air.energyOf(0, p);
   }
-  /// The pressure of a gas with a mass in a volume at a temperature.
+  /// Returns the pressure of a mass of gas in a volume at a temperature.
   static double pressureOf(const euler::Gas& gas, double mass, double volume, double temperature) {
     return mass * gas.gasConstant() * temperature / volume - gas.pInfinity;
   }
@@ -162,7 +162,7 @@ TEST(HeatBetweenGases, HasOneFingerprintOnAnyPatches) {
 
 namespace {
 
-/// A scene whose gases get heat.
+/// A scene whose gases have heat sources.
 std::string heated(const std::string& scene, const std::string& tags) {
   return test::changedScene(scene, "<ICE><advection type=\"SecondOrder\"/>",
                             "<ICE><advection type=\"SecondOrder\"/><ADD_HEAT>" + tags + "</ADD_HEAT>");

@@ -18,21 +18,21 @@ const std::string slow = "ups/ice/slow_gases.ups";
 
 Overrides cells(int x, int y) { return {fmt::format("Grid/Level/Box/resolution=[{},{},1]", x, y)}; }
 
-/// L1 of a measured quantity.
+/// Returns the L1 error of a measured variable.
 double errorOf(const report::Report& report, const std::string& quantity) {
   for (const report::ErrorNorms& error : report.errors)
     if (error.field == quantity) return error.norms.at("L1");
   throw std::logic_error("nothing measured the " + quantity);
 }
 
-/// A scene of explicit steps with implicit ones that sound does not limit.
+/// Returns an explicit scene with implicit steps, which sound does not limit, in place of its own.
 std::string implicitly(const std::string& scene) {
   return changedScene(scene, "<ICE><advection type=\"SecondOrder\"/></ICE>",
                       "<ICE><advection type=\"SecondOrder\"/><TimeStepControl><knob_for_speedSound>0"
                       "</knob_for_speedSound></TimeStepControl><ImplicitSolver/></ICE>");
 }
 
-/// The greatest difference of a variable from a value at the end of a scene.
+/// Returns the largest difference of a variable from a value at the end of a scene.
 double greatestError(const std::string& scene, const std::string& variable, const std::string& value,
                      const Overrides& overrides) {
   const std::string module = "<DataAnalysis><Module name=\"exactSolution\"><label>" + variable + "</label><value>" +

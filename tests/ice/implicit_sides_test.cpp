@@ -32,7 +32,7 @@ grid::Domain lineWith(const Conditions& lower, const Conditions& upper) {
   return domain;
 }
 
-/// A line of four cells of 1/4 m with gas of 1 kg/m³ at rest, and with a pressure of 3 Pa that `rise` [Pa/m] changes.
+/// A line of four cells of 1/4 m with gas of 1 kg/m³ at rest and pressure 3 Pa plus a gradient `rise` [Pa/m].
 class Line {
  public:
   Line(const Conditions& lower, const Conditions& upper, double rise = 0) : grid_(lineWith(lower, upper)) {
@@ -49,7 +49,7 @@ class Line {
     limitImplicitStep<1>(patch(), method_, settings_, before(), 0, seen<const double>(pressure_, 1), dt);
     return dt.value;
   }
-  /// The momentum after a step in which no pressure changes, kg/(m² s).
+  /// The momentum after a step in which no pressure changes [kg/(m² s)].
   std::vector<double> momentumAfter(double dt) {
     std::vector<double> density(4), energy(4), change(4), pushed;
     std::vector<Vec<1>> momentum(4);

@@ -17,7 +17,7 @@ const std::string sod = "ups/ice/sod_implicit.ups", vortex = "ups/ice/vortex_slo
 
 Overrides cells(int x, int y) { return {fmt::format("Grid/Level/Box/resolution=[{},{},1]", x, y)}; }
 
-/// L1 of a measured quantity.
+/// Returns the L1 error of a measured variable.
 double errorOf(const report::Report& report, const std::string& quantity) {
   for (const report::ErrorNorms& error : report.errors)
     if (error.field == quantity) return error.norms.at("L1");
@@ -26,7 +26,7 @@ double errorOf(const report::Report& report, const std::string& quantity) {
 
 const std::string control = "<knob_for_speedSound>0</knob_for_speedSound>";
 
-/// A tube of gas of 1 kg/m³ and 100 K, R = 1 J/(kg K), with conditions at both ends; measures the error of a pressure.
+/// A tube of gas of 1 kg/m³ and 100 K, R = 1 J/(kg K), with conditions at both ends; measures the pressure's error.
 std::string tube(const std::string& lower, const std::string& upper, bool isImplicit = true) {
   std::string scene =
       changedScene("ups/ice/heat_wave.ups", "<label>c.temperature</label>", "<label>c.pressure</label>");

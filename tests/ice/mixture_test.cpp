@@ -16,7 +16,7 @@ using test::problemOf;
 const std::string tube = "ups/ice/two_gases.ups", waterTube = "ups/ice/water_air.ups",
                   drift = "ups/ice/water_drifts.ups", three = "ups/ice/three_gases.ups";
 
-/// The greatest difference of a variable from a value after a scene without modules.
+/// Returns the largest difference of a variable from a value after a scene without modules.
 double greatestError(const std::string& scene, const std::string& variable, const std::string& value,
                      const Overrides& overrides) {
   const std::string module = "<DataAnalysis><Module name=\"exactSolution\">" + variable + "<value>" + value +
@@ -123,7 +123,7 @@ TEST(IceMixture, RefusesGasesThatDoNotFillTheGrid) {
 
 TEST(IceMixture, RefusesASlowExchange) {
   EXPECT_EQ(problemOf(changedScene(tube, "<momentum>[1e15]", "<momentum>[100]")),
-            "100 between gases is not available: gases share one velocity, so the value must be 1e9 or more");
+            "100 between gases is not available: gases share one velocity, so the value is expected to be 1e9 or more");
   EXPECT_EQ(problemOf(changedScene(tube, "<heat>[0]", "<heat>[0,0]")),
             "found 2 numbers, expected 1: one for each pair of 2 gases");
 }
@@ -164,7 +164,7 @@ TEST(IceMixture, RefusesFourGases) {
 
 namespace {
 
-/// A scene of gases with finer cells where their shares differ.
+/// A scene of several gases with finer cells where their volume fractions vary.
 std::string refined(const std::string& scene, const std::string& ratio = "[[2,2,2]]") {
   return changedScene(scene, "</Uintah_specification>",
                       "<AMR><ICE><Refinement_Criteria_Thresholds><Variable name=\"vol_frac_CC\" type=\"gradient\" "

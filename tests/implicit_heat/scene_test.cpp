@@ -36,8 +36,9 @@ TEST(HeatSection, SendsImplicitStepsToTheComponentThatTakesThem) {
   EXPECT_EQ(problemWith({"Heat/time_integrator=backward_euler"}),
             "found 'backward_euler', expected explicit: for implicit steps, use <SimulationComponent "
             "type=\"implicit_heat\"/>");
-  EXPECT_EQ(problemWith({"Heat/Solver/solver=cg"}),
-            "is not available; explicit steps solve no system; <SimulationComponent type=\"implicit_heat\"/> does");
+  EXPECT_EQ(
+      problemWith({"Heat/Solver/solver=cg"}),
+      "is not available; explicit steps solve no linear system; <SimulationComponent type=\"implicit_heat\"/> does");
 }
 
 TEST(HeatSection, SendsExplicitStepsBack) {

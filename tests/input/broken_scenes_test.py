@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Broken scenes: each gets its sentence, a documented exit code, and nothing is written."""
+"""Broken scenes: each gives its error message and a documented exit code, and writes nothing."""
 import pathlib
 import subprocess
 import sys
@@ -86,7 +86,7 @@ OVERRIDES = {
     "flat shape": (LEFT + "box/max=[0,1,1]", "MaterialProperties/MPM/material/geom_object/box"),
     "density that is not a number": (LEFT + "density=sqrt(x-0.2)",
                                      "geom_object: its density is -nan at the point (0.000625, "
-                                     "0.5, 0.5); density must be greater than 0"),
+                                     "0.5, 0.5); expected a density greater than 0"),
     "pressure negative in places": (LEFT + "pressure=x-0.1", "geom_object: its pressure is -0.099375 at the point"),
     "overlapping boxes": (LEFT + "box/max=[0.6,1,1]", "geom_object: overlaps the geom_object at"),
     "both output intervals": ("DataArchiver/outputTimestepInterval=5", "DataArchiver: gives both outputInterval and "

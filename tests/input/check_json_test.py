@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`sus -check -json SCENE`: what is wrong with a scene, for programs."""
+"""`sus -check -json SCENE` reports the problems of a scene in a form for programs."""
 import json
 import pathlib
 import subprocess

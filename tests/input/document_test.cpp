@@ -74,10 +74,10 @@ TEST(Document, SaysThatAFolderIsNoFile) {
   const std::string folder = test::temporaryFolder() + "folder.ups";
   std::filesystem::create_directory(folder);
 
-  EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, but must be a file"});
+  EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, not a file"});
 }
 
-/// A surface of triangles is named without the ends of its two files, NAME.pts and NAME.tri.
+/// A triangle surface is named without the extensions of its two files, NAME.pts and NAME.tri.
 TEST(Document, FindsTheFilesOfASurfaceAboveAndBesideTheScene) {
   const std::filesystem::path above = test::newFolder("surfaces"), beside = above / "scenes" / "hearts";
   std::filesystem::create_directories(beside);

@@ -16,7 +16,7 @@ PiecePtr pieceOf(const std::string& shapes) {
   return piece;
 }
 
-/// All children of a section M are taken for geom_objects; `inside` starts on line 2, column 1.
+/// Returns the problems of `inside`, read as geom_objects of a section M; it starts on line 2, column 1.
 Lines problemsOf(const std::string& inside) {
   const Document document = documentOf("<M>\n" + inside + "</M>");
   Diagnostics diagnostics;
@@ -304,8 +304,8 @@ TEST(Geometry, SaysHowManyShapesAreNeeded) {
 
 TEST(Geometry, SaysThatABoxIsFlat) {
   EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,0,-2]") + "</a>"),
-            (Lines{"s.ups:2:5: M/a/box: the box has no extent along y: max 0 must be above min 0",
-                   "s.ups:2:5: M/a/box: the box has no extent along z: max -2 must be above min 0"}));
+            (Lines{"s.ups:2:5: M/a/box: the box has no extent along y: max 0 is not above min 0",
+                   "s.ups:2:5: M/a/box: the box has no extent along z: max -2 is not above min 0"}));
 }
 
 TEST(Geometry, SaysThatARadiusIsNotPositive) {
@@ -337,11 +337,11 @@ TEST(Geometry, SaysThatSemiAxesAreWrong) {
   EXPECT_EQ(
       problemsOf(
           "<a><ellipsoid><origin>[0,0,0]</origin><v1>[1,0,0]</v1><v2>[1,1,0]</v2><v3>[0,0,1]</v3></ellipsoid></a>"),
-      Lines{"s.ups:2:5: M/a/ellipsoid: the semi-axes v1, v2 and v3 must be perpendicular to each other"});
+      Lines{"s.ups:2:5: M/a/ellipsoid: the semi-axes v1, v2 and v3 are not perpendicular to each other"});
   EXPECT_EQ(
       problemsOf(
           "<a><ellipsoid><origin>[0,0,0]</origin><v1>[1,0,0]</v1><v2>[0,0,0]</v2><v3>[0,0,1]</v3></ellipsoid></a>"),
-      Lines{"s.ups:2:5: M/a/ellipsoid: the semi-axes v1, v2 and v3 must not be zero"});
+      Lines{"s.ups:2:5: M/a/ellipsoid: one of the semi-axes v1, v2 and v3 is zero"});
 }
 
 TEST(Geometry, SaysThatAParallelepipedIsFlat) {

@@ -19,7 +19,7 @@ Lines problemsOf(const std::string& inside) {
   return told(diagnostics);
 }
 
-/// The octahedron |x| + |y| + |z| <= 1 moved by (1, 1, 1), half of its planes by points and half by offsets.
+/// The octahedron |x| + |y| + |z| <= 1 shifted by (1, 1, 1), half of its planes given by points, half by offsets.
 std::string octahedron() {
   std::string planes;
   for (int k = 0; k < 8; ++k) {
@@ -63,7 +63,7 @@ TEST(Planes, RefusesAPolyhedronThatIsOpenOrOfWrongPlanes) {
             "<offset>");
 }
 
-/// What `<line_segment>` makes of a file.
+/// Returns the piece that `<line_segment>` makes from a file.
 PiecePtr polygonOf(const std::string& text, Diagnostics& diagnostics) {
   temporaryFile("corners.pts", text);
   return pieceOf("<line_segment><name>" + test::temporaryFolder() + "corners.pts</name></line_segment>", diagnostics);

@@ -44,7 +44,7 @@ pugi::xml_document written(void (*write)(std::ostream&, const TagForm&, const st
   return file;
 }
 
-/// Whether the pattern of a type takes a text whose blanks are collapsed.
+/// Whether the pattern of a type matches a text with collapsed white space.
 bool takes(const std::string& type, const std::string& text) {
   return std::regex_match(text, std::regex(valueTypeOf(type).pattern));
 }

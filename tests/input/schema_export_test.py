@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The schemas of `sus --schema`: every scene of ups/ is valid, and scenes that are wrong in structure are not."""
+"""The schemas of `sus --schema` accept every scene of ups/ and reject scenes with a wrong structure."""
 import pathlib
 import re
 import sys
@@ -26,7 +26,7 @@ STRUCTURE = re.compile(r"unknown (tag|section|attribute)|missing tag <\w+> in <|
 
 
 def broken_scenes():
-    """Name -> text of each scene of the tests that is wrong in structure."""
+    """Returns name -> text of each scene of the tests that has a wrong structure."""
     sod = broken_scenes_test.SOD
     scenes = {name: editors.overridden(sod, change)
               for name, (change, sentence) in broken_scenes_test.OVERRIDES.items() if STRUCTURE.search(sentence)}
@@ -45,7 +45,7 @@ class SchemaExport(unittest.TestCase):
         cls.rng, cls.xsd = editors.schema("rng"), editors.schema("xsd")
 
     def invalid(self, texts, language="rng"):
-        """Names of the scenes that are not valid."""
+        """Returns the names of the scenes that are not valid."""
         with tempfile.TemporaryDirectory() as folder:
             files = {}
             for number, (name, text) in enumerate(texts.items()):

@@ -104,7 +104,7 @@ Gas gasOf(const std::string& inside) {
   return gas;
 }
 
-/// `inside` starts on line 2, column 1, of a gas with all that it needs.
+/// Returns the problems of `inside`, which starts on line 2, column 1, of an otherwise complete gas.
 Lines problemsOf(const std::string& inside, const std::string& needed = "<gamma>1.4</gamma>",
                  const std::string& tag = "<gas>") {
   const Document document = documentOf(tag + needed + "\n" + inside + "</gas>");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Conditions on parts of sides, and formulas in them, that cannot be: each gets its sentence at its place."""
+"""Impossible conditions on side parts, and impossible formulas in them: each is reported at its place."""
 import pathlib
 import sys
 import unittest

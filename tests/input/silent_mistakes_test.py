@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Mistakes that would run as another problem than the one meant, or die late: each is refused at its place at once."""
+"""Mistakes that would silently run another problem, or fail late: each is refused at its place at once."""
 import pathlib
 import sys
 import tempfile
@@ -10,7 +10,7 @@ from sus import ROOT, run
 
 
 def exact_solution(label):
-    """A module that measures against 0, with the end of the section of modules."""
+    """Returns a module that compares with 0, followed by the end of the section of modules."""
     return f'<Module name="exactSolution"><label>{label}</label><value>0</value></Module></DataAnalysis>'
 
 
@@ -22,7 +22,7 @@ class SilentMistakes(unittest.TestCase):
         self.assertEqual((result.files, result.out), ([], ""))
 
     def assert_edited_is_refused(self, scene, before, after, *sentences, sets=()):
-        """Runs a scene in which `before` reads `after`; SCENE in a sentence is its file."""
+        """Runs a scene with `before` replaced by `after`; SCENE in an expected message stands for its file."""
         text = (ROOT / scene).read_text()
         self.assertIn(before, text)
         with tempfile.TemporaryDirectory() as folder:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Solids: what a scene asks for and the method would pass over, or give another meaning, is refused at its place."""
+"""Input for solids that the method would ignore or misread is refused at its place."""
 import pathlib
 import sys
 import tempfile
@@ -142,7 +142,7 @@ REFUSED = {
     "a metal without a heat capacity in implicit steps":
         (BEAM, (RUBBER, METAL + HARDENS), "missing tag <specific_heat>: elastic_plastic is heated by plastic work"),
     "obstacles without an energy":
-        (BEAM, (RUBBER, METAL + MTS), "g_0i, edot_0i and q_i must be greater than 0 if p_i is"),
+        (BEAM, (RUBBER, METAL + MTS), "p_i is greater than 0, but g_0i, edot_0i and q_i are not"),
     "friction in implicit steps":
         (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"),
          "contact: friction needs <time_integrator> "

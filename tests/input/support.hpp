@@ -12,7 +12,7 @@
 
 namespace tushar::input {
 
-/// What the user would be told, one line per problem.
+/// Returns the messages that the user would see, one line per problem.
 inline std::vector<std::string> told(const Diagnostics& diagnostics) {
   std::vector<std::string> lines;
   for (const InputProblem& problem : diagnostics.sorted()) lines.push_back(problem.text());
@@ -21,12 +21,12 @@ inline std::vector<std::string> told(const Diagnostics& diagnostics) {
 
 using Lines = std::vector<std::string>;
 
-/// Wraps `inside` in the root tag, on the same line: columns are 23 further right on line 1.
+/// Wraps `inside` in the root tag on the same line, so columns of line 1 are shifted by 23.
 inline std::string scene(const std::string& inside) {
   return "<Uintah_specification>" + inside + "</Uintah_specification>";
 }
 
-/// A document called `s.ups` that is expected to be well-formed.
+/// Returns a document named `s.ups` that is expected to be well-formed.
 inline Document documentOf(const std::string& inside) {
   Diagnostics diagnostics;
   Document document = Document::parse(scene(inside), "s.ups", diagnostics);
@@ -34,7 +34,7 @@ inline Document documentOf(const std::string& inside) {
   return document;
 }
 
-/// Writes a file into the folder for temporary files; returns its path.
+/// Writes a file into the temporary folder and returns its path.
 inline std::string temporaryFile(const std::string& name, const std::string& text) {
   const std::string path = test::temporaryFolder() + name;
   std::ofstream(path) << text;

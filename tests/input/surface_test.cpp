@@ -10,7 +10,7 @@
 namespace tushar::input {
 namespace {
 
-/// The eight corners of a cube of edge 1, and its twelve triangles.
+/// The eight corners of a cube with edges of length 1, and its twelve triangles.
 const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 const std::vector<std::array<int, 3>> faces{{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
                                             {2, 3, 7}, {2, 7, 6}, {1, 2, 6}, {1, 6, 5}, {3, 0, 4}, {3, 4, 7}};
@@ -46,7 +46,7 @@ std::string bytesOf(const Triangles& triangles) {
   return bytes;
 }
 
-/// A sphere about (1, 2, 3) by meridians and parallels.
+/// A sphere about (1, 2, 3), triangulated along meridians and parallels.
 Triangles sphere(double radius, int parallels) {
   const int meridians = 2 * parallels;
   const auto at = [&](int i, int j) {
@@ -66,7 +66,7 @@ Triangles sphere(double radius, int parallels) {
 
 class SurfaceFile : public testing::Test {
  protected:
-  /// What `<tri>` makes of a file, and what it says of it.
+  /// Returns the piece that `<tri>` makes from a file, and the messages about it.
   PiecePtr read(const std::string& name) {
     const Document document =
         documentOf("<geom_object><tri><name>" + test::temporaryFolder() + name + "</name></tri></geom_object>");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The manual in a browser: the search finds, messages get the family that tools/manual gives them, no page is too wide.
+"""The manual in a browser: the search works, messages find the family that tools/manual gives, all pages fit.
 Skipped where there is no chromium."""
 import html
 import json
@@ -54,7 +54,7 @@ class Browser(unittest.TestCase):
         Site(sus.SUS, Album(sus.SUS, False, f"{cls.folder.name}/cache")).write(cls.site)
 
     def shown(self, text):
-        """What a page writes into #out."""
+        """Returns what a page writes into #out."""
         page = self.site / "check.html"
         page.write_text(text)
         command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files",

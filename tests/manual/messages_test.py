@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every message of the C++ sources belongs to a family with a number, and the numbers stay."""
+"""Every message of the C++ sources belongs to a numbered family, and numbers never change."""
 import pathlib
 import re
 import subprocess
@@ -87,7 +87,7 @@ class Messages(unittest.TestCase):
 
 
 class Search(unittest.TestCase):
-    """The search through a source."""
+    """Tests of the search through a source file."""
 
     def found(self, source):
         return [template.text for template in templates_in(source, "x.cpp")]

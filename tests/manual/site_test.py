@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The manual is complete: every tag has its place, every scene its page, and no link is dead."""
+"""The manual is complete: every tag and every scene has its page, and no link is dead."""
 import pathlib
 import re
 import subprocess
@@ -45,7 +45,7 @@ def setUpModule():
 
 
 def described():
-    """(name, line) of all that --describe prints, taken down without the parser of the manual."""
+    """(name, line) of all that --describe prints, collected without the manual's own parser."""
     listed = printed("--list").partition("shapes")[0]
     for name in ["scene", *re.findall(r"^  (\w+)", listed, re.MULTILINE)]:
         yield from ((name, line) for line in printed("--describe", name).splitlines()
@@ -118,7 +118,7 @@ class Links(unittest.TestCase):
 
 
 class Tags(unittest.TestCase):
-    """The text of --describe is read as it is meant."""
+    """Tests of the parser for the text of --describe."""
 
     def test_a_value(self):
         tag = tags.parse_line("<r> — number in m, greater than 0 and at most 1, default 0.5: radius [Tushar's own]")

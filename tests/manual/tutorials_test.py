@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The commands of the tutorials run, and print what the tutorials say.
+"""The commands of the tutorials run and print what the tutorials show.
 
 A block `sh` is run, `sh exits 3` ends with that code, `sh not run: why` is left out. A block `text` after it has lines
 of what it prints, in their order: … stands for anything, ⟨same⟩ for something that is the same each time.
@@ -25,19 +25,19 @@ tools/run() {
 
 
 def blocks(page):
-    """[(language, note, text)] of a page."""
+    """Returns [(language, note, text)] for the code blocks of a page."""
     return [(language, note or "", text) for language, note, text in BLOCK.findall(page.read_text())]
 
 
 def line_pattern(line):
-    """A regular expression for a line of a block `text`, and for all that follows it in the same line."""
+    """Returns a regular expression for a line of a `text` block, with anything after it on the same line."""
     parts = re.split(r"(…|⟨same⟩)", line.strip())
     meaning = {"…": ".*", "⟨same⟩": r"(?P<same>\S+)"}
     return re.compile("".join(meaning.get(part) or r"\s+".join(map(re.escape, part.split(" "))) for part in parts))
 
 
 def what_is_missing(expected, printed):
-    """The first line of `expected` that is not in `printed`, after the ones before it; None if all are."""
+    """Returns the first line of `expected` that is not in `printed` after its predecessors; None if all are."""
     lines, at, same = printed.splitlines(), 0, None
     for line in filter(str.strip, expected.splitlines()):
         pattern = line_pattern(line)
@@ -113,7 +113,7 @@ class Tutorials(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    """The comparison itself finds what is wrong."""
+    """Tests that the comparison itself finds differences."""
 
     def test_lines_are_found_in_their_order_only(self):
         self.assertIsNone(what_is_missing("a …\nb", "x\na 1 2\n  b  c\n"))

@@ -28,7 +28,7 @@ class Misfits(unittest.TestCase):
         self.module = self.here / "other.so"
 
     def refused(self, *options, **environment):
-        """The sentence with which sus ends; it has not written anything."""
+        """Returns the sentence with which sus ends; checks that it has written nothing."""
         output = self.here / "output"
         done = modules.run([SUS, SCENE, "--quiet", *options, "--output", output], **environment)
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
@@ -38,14 +38,14 @@ class Misfits(unittest.TestCase):
         return re.sub(r" \[T70[568]\]\n\Z", "\n", done.stderr)
 
     def build(self, text, *flags):
-        """Compiles a module of one source, with the flags of this build and more."""
+        """Compiles a module from one source with the flags of this build and further ones."""
         source = self.here / "other.cpp"
         source.write_text(text)
         kept = [word for word in modules.compile_command() if word.startswith(("-D", "-I", "-march", "-std", "-fsan"))]
         modules.must(["g++", *kept, "-fPIC", *flags, "-shared", "-o", self.module, source])
 
     def misfit(self, abi=None, *flags):
-        """What is said of a module with a card of its own."""
+        """Returns the message about a module with a card of its own."""
         self.build(CARD % (abi or f'abiWith("{modules.interface()}")'), *flags)
         sentence = self.refused("--load", self.module)
         self.assertIn(f"the module {self.module} does not match this program: ", sentence)

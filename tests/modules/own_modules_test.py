@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The modules of sus: their index says what they have; one that is not built is built, or is told to be missing."""
+"""The modules of sus: the index lists their contents, and a missing module is built or reported."""
 import hashlib
 import json
 import os
@@ -41,7 +41,7 @@ class Index(unittest.TestCase):
 
 
 class Interface(unittest.TestCase):
-    """The hash by which a module that was built with other headers is told."""
+    """Tests of the hash by which modules built with other headers are detected."""
 
     def setUp(self):
         self.headers = sorted(str(path) for path in (ROOT / "core").rglob("*.hpp"))
@@ -59,7 +59,7 @@ class Interface(unittest.TestCase):
 
 
 class Missing(unittest.TestCase):
-    """A copy of sus beside an index, but no modules."""
+    """A copy of sus with an index of modules, but without the modules."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -76,7 +76,7 @@ class Missing(unittest.TestCase):
                            LD_LIBRARY_PATH=libraries)
 
     def builder(self, commands):
-        """The script that sus calls beside it; it keeps what it is called with."""
+        """Writes the script that sus calls to build a module; it records its arguments."""
         script = self.here / "build_missing"
         script.write_text(f"#!/bin/sh\necho \"$@\" >> '{self.here}/calls'\n{commands}\n")
         script.chmod(0o755)

@@ -11,12 +11,12 @@ template <class T>
 class BurningAlongAxes : public testing::Test {};
 TYPED_TEST_SUITE(BurningAlongAxes, AllAxes);
 
-/// Gas beside a body of boxes, four for each axis of a cell, that are on one side of a plane.
+/// Gas beside a body that fills a half space with boxes, four per cell along each axis.
 template <int D, int Size = 8>
 struct HalfSpace {
   static constexpr int size = Size, perCell = 4;
 
-  /// Boxes whose middle is beyond the plane through `corner` + `shift` cells, with the normal `into`.
+  /// Creates the boxes whose centres lie beyond the plane through `corner` + `shift` cells with normal `into`.
   HalfSpace(const Vec<D>& into, double shift) : fields(level.cells()) {
     const FreeShares<D> shares{fields.free.cells(), fields.coverage.cells()};
     forEach<D>(cube<D>(size * perCell), [&](const Index<D>& at) {
@@ -35,7 +35,7 @@ struct HalfSpace {
     });
     shares.settle();
   }
-  /// The sum over faces of the cells of a box, in faces of a cell.
+  /// Returns the surface area in the cells of a box, in units of a cell face.
   double areaIn(const Box& cells) const {
     const SurfaceAtFaces<D> surface(level, settings, fields.gas());
     double sum = 0;
@@ -51,7 +51,7 @@ struct HalfSpace {
   GasFields<D> fields;
 };
 
-/// Four cells on a line: gas, then a body, of which what burns is wanted at each face.
+/// Four cells on a line, first gas, then a body; the burn rate is wanted at each face.
 struct Line {
   Level level{euler::closedBox(1, 4)};
   Field<Vec<1>> rate{level.cells(), Vec<1>::Zero()};
@@ -133,7 +133,7 @@ TEST(SimpleBurn, FollowsThePressure) {
   EXPECT_NEAR(law.rate({.pressure = 10 * 101325.0}) / 75.3, 5.99791, 1e-5);  // 10^.778
 }
 
-/// The explosive PBX 9501, of Uintah's scenes.
+/// The explosive PBX 9501 of Uintah's scenes.
 const ice::SteadyBurn explosive{8.314, 1.637e15, 1.76e5, 1.6e-3, 4e5, 3.018e6, 0.07, 0.2, 1.4e3, 0.0342};
 
 TEST(SteadyBurn, SatisfiesTheEquationsOfItsSource) {
@@ -179,7 +179,7 @@ TEST(Cracks, LetGasInThatHasThePressure) {
   EXPECT_FALSE(ice::Ddt::enterCracks(-1e7, 1.001 * radius));
 }
 
-/// Six cells on a line: two of gas of 1 Pa and 2.5 K, then an explosive, which is at 1 K and without pressure.
+/// Six cells on a line: two cells of gas at 1 Pa and 2.5 K, then an explosive at 1 K without pressure.
 struct Explosive {
   Level level{euler::closedBox(1, 6)};
   GasFields<1> fields{level.cells()};

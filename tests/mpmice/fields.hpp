@@ -11,7 +11,7 @@
 
 namespace tushar::mpmice {
 
-/// Values of a box of cells or nodes.
+/// The values of a box of cells or nodes.
 template <class T>
 struct Field {
   Field(const Box& of, const T& value) : box(of), values(of.size(), value) {}
@@ -25,7 +25,7 @@ struct Field {
   std::vector<T> values;
 };
 
-/// A gas and how much of the cells of a grid it has; at the start all of it, of density 1 and total energy 2.5.
+/// A gas and its volume fractions in the cells of a grid; initially 1, with density 1 and total energy 2.5.
 template <int D>
 struct GasFields {
   explicit GasFields(const Box& cells)
@@ -42,10 +42,10 @@ struct GasFields {
   Field<Vec<D>> momentum, coverage;
 };
 
-/// A number from 0 to 1 for each seed, without any pattern.
+/// Returns a value from 0 to 1 that varies irregularly with the seed.
 inline double wild(double seed) { return 0.5 + 0.5 * std::sin(97.1 * seed + 31.7 * std::sin(3.3 * seed)); }
 
-/// A box of `size` cells along each of D axes.
+/// Returns a box of `size` cells along each of D axes.
 template <int D>
 Box cube(int size) {
   Box box{{}, Index3::filled(1)};

@@ -11,7 +11,7 @@ template <class T>
 class FreeSpaceAlongAxes : public testing::Test {};
 TYPED_TEST_SUITE(FreeSpaceAlongAxes, AllAxes);
 
-/// Cells of which a third is empty, a third plain gas, and the others are filled in part.
+/// Cells one third of which are empty, one third gas only, and the others partly filled.
 template <int D>
 GasFields<D> porous(const Level& level) {
   GasFields<D> fields(level.cells());

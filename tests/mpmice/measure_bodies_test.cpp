@@ -10,7 +10,7 @@ template <class T>
 class BodiesAlongAxes : public testing::Test {};
 TYPED_TEST_SUITE(BodiesAlongAxes, AllAxes);
 
-/// What boxes leave free of a cube of cells.
+/// Returns the volume that boxes leave free in a cube of cells.
 template <int D>
 struct Shares {
   explicit Shares(int size) : volume(cube<D>(size), 1), coverage(cube<D>(size), Vec<D>::Zero()) {}
@@ -20,7 +20,7 @@ struct Shares {
   Field<Vec<D>> coverage;
 };
 
-/// A box whose middle is in a cell, as that cell sees it.
+/// A box centred in a cell, in coordinates of that cell.
 template <int D>
 ParticleBox<D> boxAt(double seed) {
   ParticleBox<D> box;

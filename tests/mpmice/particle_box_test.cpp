@@ -8,7 +8,7 @@ namespace {
 
 using mpm::solid::Matrix3;
 
-/// A plane of cells of the widths 1/8 and 1/`down`.
+/// A plane of cells with widths 1/8 and 1/`down`.
 grid::Domain plane(int down) {
   grid::Domain domain = euler::closedBox(2, 8);
   domain.resolution[1] = down;

@@ -10,7 +10,7 @@ template <class T>
 class SmallCellsAlongAxes : public testing::Test {};
 TYPED_TEST_SUITE(SmallCellsAlongAxes, AllAxes);
 
-/// A grid, and a gas before and after small cells share.
+/// A grid, and a gas before and after small cells are merged with their neighbours.
 template <int D>
 struct Sharing {
   explicit Sharing(int cells) : grid(euler::closedBox(D, cells)), before(box()), after(box()) {}
@@ -26,7 +26,7 @@ struct Sharing {
                           after.free.cells()};
     for (const Patch& patch : grid.patches()) shareSmallCells<D>(patch, Settings{}, unshared(), fresh, merged);
   }
-  /// Gives a cell so much room, filled with gas of a density at rest of pressure 1.
+  /// Sets the free volume of a cell and fills it with gas of a density, at rest, at pressure 1.
   void fill(const Index<D>& cell, double free, double density = 1) {
     before.free.cells()[cell] = free;
     before.density.cells()[cell] = free * density;

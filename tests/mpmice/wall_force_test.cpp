@@ -13,7 +13,7 @@ TYPED_TEST_SUITE(WallForceAlongAxes, AllAxes);
 namespace lane = mpm::solid::lane;
 using mpm::solid::NodeRecord;
 
-/// A body in the middle cells of a grid of 6 along each axis: two materials at its nodes, all of one velocity.
+/// A body in the middle of a grid of 6 cells along each axis: two materials at its nodes, with one velocity.
 template <int D>
 struct Walled {
   Walled() : gas(level().cells()), below(level().cells(), Vec<D>::Zero()), above(below) {
@@ -53,7 +53,7 @@ struct Walled {
   std::vector<Field<Vec<D>>> forces;
 };
 
-/// Finds wall pressures and their force; gives the force in all.
+/// Computes wall pressures and their force; returns the total force.
 template <int D>
 Vec3 forceOf(Walled<D>& walled, const Settings& settings) {
   VectorSum sum;

@@ -6,7 +6,7 @@ namespace tushar::mpmice {
 
 namespace {
 
-/// A plane grid whose upper two rows of 6 are full of a body, and whose fourth is so far free.
+/// A plane grid of 6 rows: a body fills the upper two, and the fourth has the given free volume fraction.
 struct Plate {
   explicit Plate(double room) : grid(euler::closedBox(2, 6)), gas(grid.level().cells()) {
     forEach<2>(grid.level().cells(), [&](const Index<2>& cell) {

@@ -20,7 +20,7 @@ const input::Expression& inverse() {
   return formula;
 }
 
-/// What the user reads of a value at `x` that is refused.
+/// Returns the error message for a refused value at `x`.
 std::string refusal(const CheckedFormula& formula, double x) {
   try {
     formula.positiveAt(Vec3(x, 0, 0));

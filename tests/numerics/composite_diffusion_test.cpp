@@ -35,7 +35,7 @@ void forEachLeaf(const grid::Grid& grid, Visit&& visit) {
     grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) { visit(patch.level(), cell); });
 }
 
-/// A balance with the values of a function of the place.
+/// Returns the diffusion balance of a field given as a function of position.
 template <int D, class Phi>
 double applied(const Balance<D>& balance, const grid::Grid& grid, Phi&& phi) {
   const auto at = [&](int level, const Index<D>& cell) { return phi(grid.level(level).cellCentre<D>(cell)); };
@@ -52,8 +52,8 @@ bool isAtSide(const grid::Level& level, const Index<D>& cell) {
   return false;
 }
 
-/// The greatest difference, per volume, to 3 times the Laplacian of x² - 3 y² + 2 z² + 5 x y - x z + 4 y z + x in cells
-/// away from the sides.
+/// Returns the largest error per volume of 3 times the Laplacian of x² - 3 y² + 2 z² + 5 x y - x z + 4 y z + x, in
+/// cells away from the sides.
 template <int D>
 double errorForAParabola() {
   const grid::Grid grid(refined<D>());
@@ -76,8 +76,8 @@ double errorForAParabola() {
   return worst;
 }
 
-/// The greatest sums of the weights of a row and of a column, over the greatest weight, of an insulated box that
-/// repeats along x.
+/// Returns the largest row sum and column sum of the weights, relative to the largest weight, for an insulated box that
+/// is periodic along x.
 template <int D>
 std::pair<double, double> sumsOfRowsAndColumns() {
   grid::Domain domain = refined<D>();
@@ -106,8 +106,8 @@ std::pair<double, double> sumsOfRowsAndColumns() {
   return {worstRow / greatest, worstColumn / greatest};
 }
 
-/// The greatest flux that is left in a cell of a line whose finer half is on the left, where k is 1 on one side of the
-/// middle and 1e6 on the other, and phi of flux 1; k is the greater on the right.
+/// Returns the largest residual flux in a cell of a line whose left half is refined; k is 1 on one side of the middle
+/// and 1e6 on the other, and phi has flux 1.
 double leftOver(const char* k, double left, double right) {
   grid::Domain domain = test::unitBox<1>(16);
   domain.refinement = {2, {{4, 1, 1}}, {}, {{1, {0, 0, 0}, {0.5, 0, 0}}}};

@@ -12,7 +12,7 @@ namespace {
 constexpr grid::BoundaryLabel<double> phiLabel{"Phi"};
 using grid::BoundaryKind;
 
-/// A line of unit length in four cells: h = 0.25.
+/// A line of unit length with four cells: h = 0.25.
 grid::Domain line() {
   grid::Domain domain;
   domain.upper = {1, 0, 0};
@@ -22,14 +22,14 @@ grid::Domain line() {
 
 input::Expression formula(const char* text) { return *input::Expression::parse(text); }
 
-/// div(k grad phi) in a cell of a line.
+/// Returns div(k grad phi) in a cell of a line.
 double diffusionIn(int cell, const grid::Domain& domain, const input::Expression& k, std::vector<double> phi) {
   const grid::Level level(domain);
   const Diffusion<1> diffusion(level, k, phiLabel);
   return diffusion(data::CellView<const double>(phi.data(), level.cells()), Index<1>{{cell}});
 }
 
-/// The same from the row of a linear system.
+/// As above, computed from the row of a linear system.
 double balanceIn(int cell, const grid::Domain& domain, const input::Expression& k, std::vector<double> phi) {
   const grid::Level level(domain);
   const Balance<1> balance = Diffusion<1>(level, k, phiLabel).balance(Index<1>{{cell}});

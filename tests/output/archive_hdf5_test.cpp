@@ -25,7 +25,7 @@ std::vector<hsize_t> shapeOf(hid_t space) {
   return shape;
 }
 
-/// An HDF5 file open for reading.
+/// An HDF5 file that is open for reading.
 class Reader {
  public:
   explicit Reader(const fs::path& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}

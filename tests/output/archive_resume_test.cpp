@@ -25,7 +25,7 @@ void advance(Archive& archive, int firstStep, int lastStep) {
   }
 }
 
-/// Name and content of each file of a folder; of HDF5 files, which keep the time of their making, the size.
+/// Returns the content of each file of a folder by name; for HDF5 files, which record their creation time, the size.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -37,7 +37,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
   return files;
 }
 
-/// An archive that came to step 7, as it stood at step 4.
+/// Returns the state at step 4 of an archive that reached step 7.
 ArchivePoint runToStep7(const fs::path& filebase) {
   Archive archive(filebase, "<scene/>", options);
   advance(archive, 0, 4);
@@ -82,7 +82,7 @@ TEST(ArchiveResume, TakesThePointsIndexWhereThatOfTheFolderIsDamaged) {
   EXPECT_EQ(goneOn(here / "sod.uda.000", point), expected);
 }
 
-/// As after a power cut: the old file, whole.
+/// The folder has its old index, complete, as after a power failure.
 TEST(ArchiveResume, TakesThePointsIndexWhereThatOfTheFolderIsBehindIt) {
   const TemporaryFolder here;
   const auto expected = uncut(here / "other/sod.uda");

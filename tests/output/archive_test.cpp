@@ -32,7 +32,7 @@ std::string sentenceOf(const std::function<void()>& action) {
   return "no FileError";
 }
 
-/// Lets no file grow above some bytes while it lives: as a full disk does.
+/// Limits the size of all files while it exists, like a full disk.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -131,7 +131,7 @@ TEST(Archive, ListsVariablesGlobalsAndTimesInTheIndex) {
   EXPECT_TRUE(has(index, "<timestep href=\"t00042.h5\" time=\"0.1\" delT=\"0.125\">42</timestep>"));
 }
 
-/// Readers that know one level alone would take the boxes for something else.
+/// Readers that support one level only would misread the boxes.
 TEST(Archive, HasANewerFormatWhereTheGridIsRefined) {
   const TemporaryFolder here;
   Archive archive(here / "sod.uda", "", {.version = "1.2"});
@@ -181,7 +181,7 @@ TEST(Archive, ListsANewGlobalAfterTheStep) {
   EXPECT_TRUE(has(read(archive.folder() / "index.xml"), "Mass.dat"));
 }
 
-/// Lists that took as long as they are many would make the cost of an output grow.
+/// If lists were rewritten at every output, the cost of an output would grow with the number of outputs.
 TEST(Archive, ListsOutputsNowAndThenAndAllOfThemAtItsEnd) {
   const TemporaryFolder here;
   fs::path folder;
@@ -222,7 +222,7 @@ TEST(Archive, ListsAStepThatIsWrittenAgainOnce) {
   }
 }
 
-/// Wherever the disk is full: in the numbers, in what HDF5 keeps of them, or in the last bytes.
+/// The disk may become full in the data, in HDF5's own structures, or in the last bytes.
 TEST(Archive, SaysWhichOutputAFullDiskRefusedAndGoesOn) {
   const TemporaryFolder here;
   for (const int compression : {0, 4}) {
@@ -248,7 +248,7 @@ TEST(Archive, SaysWhichOutputAFullDiskRefusedAndGoesOn) {
   }
 }
 
-/// For `xdmf_test.py` and `refined_test.py`: with the variable set, archives are left in that folder.
+/// For `xdmf_test.py` and `refined_test.py`: if the variable is set, archives are left in that folder.
 TEST(Archive, CanBeLeftForOtherReaders) {
   const char* folder = std::getenv("TUSHAR_TEST_ARCHIVE");
   if (!folder) GTEST_SKIP() << "TUSHAR_TEST_ARCHIVE names no folder";

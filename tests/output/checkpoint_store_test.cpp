@@ -19,7 +19,7 @@ namespace {
 
 void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
 
-/// Puts two files into a checkpoint.
+/// Writes two files into a checkpoint.
 std::vector<FilePart> fill(const fs::path& folder) {
   write(folder / "state.h5", std::string(10000, 's'));
   write(folder / "input.xml", "<scene/>");
@@ -130,7 +130,7 @@ TEST(CheckpointManifest, NamesEveryKindOfDamage) {
             "the content of manifest has changed");
 }
 
-/// Changes the first line of a manifest and makes it whole again.
+/// Changes the first line of a manifest and updates its hash.
 void changeFormat(const fs::path& manifest, const std::string& format) {
   std::string lines = read(manifest);
   lines = format + lines.substr(lines.find('\n') + 1);

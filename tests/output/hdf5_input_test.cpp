@@ -30,7 +30,7 @@ void writeSample(const std::filesystem::path& path) {
   file.close();
 }
 
-/// Makes the numbers of an array when it is asked for them.
+/// Computes the values of an array on demand.
 class Maker : public Source {
  public:
   explicit Maker(Array array) : array_(std::move(array)) {}

@@ -11,7 +11,7 @@ namespace tushar::output {
 
 namespace {
 
-constexpr std::size_t count = 3000;  ///< more parts than the system takes at once
+constexpr std::size_t count = 3000;  ///< more parts than the system accepts in one call
 
 void writeSample(const std::filesystem::path& path, int compression) {
   Hdf5File file(path, false, compression);
@@ -20,7 +20,7 @@ void writeSample(const std::filesystem::path& path, int compression) {
   file.close();
 }
 
-/// One number after the other, each to its own place in `to` from the end on; each seventh is left out.
+/// Returns parts of one value each, with targets in `to` from its end on; every seventh is omitted.
 std::vector<Hdf5Parts::Part> scattered(std::vector<double>& to) {
   std::vector<Hdf5Parts::Part> parts;
   for (std::size_t k = 0; k < count; ++k)

@@ -47,7 +47,7 @@ class Refined(unittest.TestCase):
         return reader
 
     def assert_is_box(self, image, output, number, names):
-        """An image has the place and the values of a box of an output; `names`: of its data -> path."""
+        """Checks that an image has the position and the values of an output's box; `names` maps its data to paths."""
         boxes, grid = output["grid/boxes"][()], output["grid"].attrs
         level, lower, upper = boxes[number][0], boxes[number][1:4], boxes[number][4:]
         spacing = output["grid/levels"][level]
@@ -60,7 +60,7 @@ class Refined(unittest.TestCase):
             np.testing.assert_array_equal(read, output[path][first:first + len(read)], err_msg=name)
 
     def paths(self, output):
-        """Those of all fields, `gas/c.density`."""
+        """Returns the paths of all fields, such as `gas/c.density`."""
         found = []
         output["cells"].visititems(lambda name, item: found.append(name) if isinstance(item, h5py.Dataset) else None)
         return found

@@ -76,7 +76,7 @@ TEST(RunLog, MovesADamagedFileAway) {
   EXPECT_EQ(read(here / "run.json.damaged"), R"({"runs": [)");
 }
 
-/// Its next checkpoint is one that a sus of that version would call damaged.
+/// A sus of the older version would report the next checkpoint as damaged.
 TEST(RunLog, GivesItsFormatToAnArchiveOfAnOlderVersion) {
   const TemporaryFolder here;
   std::ofstream(here / "run.json") << R"({"format": 1, "runs": [{"end": null}]})";

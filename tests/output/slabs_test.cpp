@@ -18,7 +18,7 @@ namespace tushar::output {
 
 namespace {
 
-/// Hands out what an array has in memory.
+/// A source that hands out the values of an array in memory.
 class InMemory : public Source {
  public:
   explicit InMemory(Array array) : array_(std::move(array)) {}
@@ -28,7 +28,7 @@ class InMemory : public Source {
     const auto& values = std::get<std::vector<double>>(array_.values);
     std::memcpy(to, reinterpret_cast<const std::byte*>(values.data()) + first * bytes, count * bytes);
   }
-  /// Steps go on: the memory of the values gets others.
+  /// Overwrites the values in memory, as later steps would.
   void forget() { array_ = counting("a", array_.components, array_.entries(), 7); }
 
  private:

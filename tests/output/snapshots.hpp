@@ -12,7 +12,7 @@
 
 namespace tushar::output {
 
-/// A folder for one test, removed at its end.
+/// A folder for one test, removed at the end of the test.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -31,14 +31,14 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// All that stands in a file.
+/// Returns the content of a file.
 inline std::string read(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
 }
 
-/// A real array whose value at number k is first + k.
+/// A real array whose value with index k is first + k.
 inline Array counting(const std::string& label, int components, std::size_t entries, double first) {
   std::vector<double> values(entries * components);
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = first + static_cast<double>(k);
@@ -68,7 +68,7 @@ inline Snapshot emptySnapshot(int step, double time) {
   return snapshot;
 }
 
-/// Two materials, the second without particles, and fields of 4 × 3 × 2 cells with lower corner (-1, 0, 2).
+/// Two materials, the second without particles, and fields on 4 × 3 × 2 cells with lower corner (-1, 0, 2).
 inline Snapshot snapshot3d(int step, double time) {
   Snapshot snapshot = emptySnapshot(step, time);
   snapshot.grid = {{-1, 0, 2}, {0.5, 0.25, 2}, {{4, 3, 2}}, 3};
@@ -98,7 +98,7 @@ inline Snapshot snapshotRefined(int step, double time) {
   return snapshot;
 }
 
-/// The same before anything was refined: one box.
+/// The grid of snapshotRefined() before its refinement: one box.
 inline Snapshot snapshotUnrefined(int step, double time) {
   Snapshot snapshot = snapshotRefined(step, time);
   snapshot.grid.boxes = {{0, {{0, 0, 0}}, {{4, 2, 1}}}};

@@ -27,7 +27,7 @@ def sus(*arguments):
 
 
 def datasets(group):
-    """Path below `group`, with _ for / -> values, for all datasets."""
+    """Returns the values of all datasets below `group`, by their path with _ in place of /."""
     found = {}
     group.visititems(lambda name, item: found.update({name.replace("/", "_"): item[()]})
                      if isinstance(item, h5py.Dataset) else None)
@@ -35,7 +35,7 @@ def datasets(group):
 
 
 class Series:
-    """A VTKHDF file in VTK's eyes."""
+    """A VTKHDF file as VTK reads it."""
 
     def __init__(self, path):
         self.reader = vtkHDFReader()
@@ -52,7 +52,7 @@ class Series:
 @unittest.skipIf(MISSING, MISSING)
 class VtkHdf(unittest.TestCase):
     def archive_of(self, scene, *options):
-        """The folder that a run of the scene leaves, with its outputs opened by time."""
+        """Runs a scene and returns its archive's folder and its outputs, opened, by time."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         ended = sus(scene, "--output", folder.name, *options)
@@ -64,7 +64,7 @@ class VtkHdf(unittest.TestCase):
         return archive, outputs
 
     def with_nodes(self, scene):
-        """A copy of the scene that saves nodes, too."""
+        """Returns a copy of the scene that also saves node variables."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         copy = pathlib.Path(folder.name) / scene.name

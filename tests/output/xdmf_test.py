@@ -35,7 +35,7 @@ XDMF = None
 
 
 def all_datasets(group):
-    """Path below `group` -> values, for all datasets."""
+    """Returns the values of all datasets below `group`, by path."""
     found = {}
     group.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
     return found
@@ -56,7 +56,7 @@ class Xdmf(unittest.TestCase):
             output.close()
 
     def blocks(self, output):
-        """Block name -> data set, at the time of an output."""
+        """Returns the datasets of an output at a time, by block name."""
         self.reader.UpdateTimeStep(output.attrs["time"])
         top = self.reader.GetOutputDataObject(0)
         if not top.IsA("vtkMultiBlockDataSet"):

@@ -20,7 +20,7 @@ grid::Domain refined(grid::Domain domain) {
   return domain;
 }
 
-/// Order between `cells` and twice as many, by the greatest error.
+/// Returns the order of convergence between `cells` and twice as many, from the maximum error.
 template <int D>
 double orderOfTheGreatest(int cells, const Settings& settings, const std::string& exact) {
   const auto worst = [&](int n) { return solved<D>(refined<D>(keptAtOne<D>(n)), settings, exact).worst; };

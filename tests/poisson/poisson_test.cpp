@@ -10,7 +10,7 @@ namespace tushar::poisson {
 
 namespace {
 
-/// Order between `cells` and twice as many.
+/// Returns the order of convergence between `cells` and twice as many.
 template <int D, class Make>
 double order(int cells, const Make& make, const Settings& settings, const std::string& exact) {
   const double coarse = solved<D>(make(cells), settings, exact).error;
@@ -29,7 +29,7 @@ grid::Domain repeated(int cells) {
   return domain;
 }
 
-/// What is said of a system without a solution, and what to try.
+/// Returns the message about a system without a solution, with its remedy.
 template <int D>
 std::pair<std::string, std::string> refusal(const grid::Domain& domain, const Settings& settings) {
   try {

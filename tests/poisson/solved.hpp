@@ -21,10 +21,10 @@ inline Settings settingsOf(const std::string& source, const std::string& coeffic
 
 struct Solved {
   double error;  ///< mean of |phi - exact|
-  double worst;  ///< the greatest of them
-  double mean;   ///< of phi, by volume
+  double worst;  ///< maximum of |phi - exact|
+  double mean;   ///< volume mean of phi
   double iterations;
-  std::map<std::uint64_t, double> phi;  ///< by the number of the cell
+  std::map<std::uint64_t, double> phi;  ///< phi by cell number
 };
 
 template <int D>
@@ -68,7 +68,7 @@ grid::Domain keptAtOne(int cells) {
   return domain;
 }
 
-/// The outward derivative is kept at both ends.
+/// A domain with the given outward derivatives at both ends.
 inline grid::Domain betweenSlopes(int cells, double lower, double upper) {
   grid::Domain domain = test::unitBox<1>(cells);
   condition(domain, 0, 0, BoundaryKind::neumann, lower);

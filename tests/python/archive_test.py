@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tushar.open: lazy arrays, particles over time, sentences, memory: python3 tests/python/archive_test.py"""
+"""Tests of tushar.open: lazy arrays, particles over time, messages, memory: python3 tests/python/archive_test.py"""
 import os
 import subprocess
 import sys

@@ -30,7 +30,7 @@ from support import LIBRARY, ROOT
 
 
 class InAFolder(unittest.TestCase):
-    """Each test works in a folder of its own."""
+    """Base of tests, each in a folder of its own."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -94,7 +94,7 @@ class Notebook(InAFolder):
 
 
 def example_of(name):
-    """An example as a module."""
+    """Imports an example as a module."""
     spec = importlib.util.spec_from_file_location(name, LIBRARY / "examples" / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

@@ -21,14 +21,14 @@ MIDDLES = [.125, .375, .5625, .6875, .78125, .84375, .90625, .96875]  # of the c
 
 
 def tool(folder, name, *words):
-    """Exit code, output and errors of a tool that works in a folder."""
+    """Runs a tool in a folder; returns its exit code, output and errors."""
     done = subprocess.run([sys.executable, support.ROOT / "tools" / name, *map(str, words)], capture_output=True,
                           text=True, encoding="utf-8", cwd=folder)
     return done.returncode, done.stdout, done.stderr
 
 
 def middles(grid):
-    """Places (z, y, x, 3) of the middles of all cells of a grid of one level."""
+    """Returns the centres (z, y, x, 3) of all cells of a grid with one level."""
     z, y, x = np.meshgrid(*grid.coordinates("cell")[::-1], indexing="ij")
     return np.stack([x, y, z], axis=-1)
 
@@ -43,7 +43,7 @@ class WithRefined(InFolder):
         cls.plane, cls.box = cls.archives[2][-1], cls.archives[3][-1]
 
     def expected(self, snapshot, places):
-        """The density of the cells that hold places (n, 3): that in their middles."""
+        """Returns the density at the centres of the cells that contain the positions (n, 3)."""
         found = np.full(len(places), np.nan)
         for box in snapshot["c.density"].boxes:
             inside = ((places >= box.lower) & (places < box.upper)).all(axis=1)

@@ -1,4 +1,4 @@
-"""What tests of the Python package share: it is found, with the libraries that it needs, and so is sus."""
+"""Common set-up of the tests of the Python package: finds the package, its libraries and sus."""
 import importlib.util
 import os
 import pathlib
@@ -15,6 +15,6 @@ from tushar.interpreter import ensure
 
 
 def missing(*modules):
-    """Why a test is skipped, a sentence; None where this Python has the modules."""
+    """Returns the reason to skip a test if modules are missing; otherwise None."""
     gone = [name for name in modules if importlib.util.find_spec(name) is None]
     return f"this Python has no {' and no '.join(gone)}" if gone else None

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-/// What comes of a run in which one task does something to one cell.
+/// Returns the outcome of a run in which one task harms one cell.
 template <class Harm>
 std::string failure(const mpi::Communicator& ranks, bool mayRepeat, const Harm& harm) {
   test::Runner run(plane({{4, 3, 1}}, false), 1, ranks);

@@ -19,10 +19,10 @@ struct Material {
 };
 const std::vector<Material> body{{"body"}};
 
-/// Cells that hold particles: a block of them.
+/// Whether a cell contains particles; such cells form a block.
 bool holds(const Index<2>& cell) { return cell[0] > 7 && cell[0] < 11 && cell[1] > 1 && cell[1] < 5; }
 
-/// Whether a particle is within two cells of a node, also of a periodic image.
+/// Whether a particle is within two cells of a node or of one of its periodic images.
 bool isNear(const Index<2>& node, bool periodic) {
   bool near = false;
   forEach<2>({{{-2, -2, 0}}, {{2, 2, 1}}}, [&](const Index<2>& beside) {
@@ -33,7 +33,7 @@ bool isNear(const Index<2>& node, bool periodic) {
   return near;
 }
 
-/// How many nodes differ from what is expected, and how many patches had from others.
+/// The number of nodes with wrong values, and the number of patches that received values from others.
 struct Exchanged {
   double wrong, given;
 };

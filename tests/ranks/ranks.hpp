@@ -9,10 +9,10 @@
 
 namespace tushar::test {
 
-/// All ranks that the tests were started on.
+/// Returns the communicator of all ranks of the test program.
 const mpi::Communicator& allRanks();
 
-/// Runs `test` on the first `count` of all ranks; the others wait for the next call.
+/// Runs `test` on the first `count` ranks; the others wait for the next call.
 inline void onRanks(int count, const std::function<void(const mpi::Communicator&)>& test) {
   const bool takesPart = allRanks().rank() < count;
   const mpi::Communicator some = allRanks().split(takesPart ? 1 : 0);
@@ -21,7 +21,7 @@ inline void onRanks(int count, const std::function<void(const mpi::Communicator&
 
 inline grid::Share shareOf(const mpi::Communicator& ranks) { return {ranks.rank(), ranks.size()}; }
 
-/// The number of a cell or node of `plane`, the same for all of its periodic images.
+/// Returns the number of a cell or node of `plane`, equal for all its periodic images.
 inline double numberOf(const Index<2>& at, bool periodic) {
   const auto wrapped = [&](int k, int cells) { return periodic ? (k % cells + cells) % cells : k; };
   return 1 + wrapped(at[0], 12) + 1000 * wrapped(at[1], 10);

@@ -21,7 +21,7 @@ struct Material {
 };
 const std::vector<Material> body{{"body"}};
 
-/// 64 cells in blocks of 8, one patch each, all refined once.
+/// A domain of 64 cells in blocks of 8, one patch per block, all refined once.
 grid::Domain refinedLine() {
   grid::Domain domain;
   domain.upper = {1, 0, 0};
@@ -32,7 +32,7 @@ grid::Domain refinedLine() {
   return domain;
 }
 
-/// Eight particles in each of the 32 cells of the first quarter.
+/// Creates eight particles in each of the 32 cells of the first quarter.
 void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<1>>& at) {
   forEach<1>(patch.cells(), [&](const Index<1>& cell) {
     for (int k = 0; k < perCell && cell[0] < 32; ++k) {
@@ -42,7 +42,7 @@ void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vect
   });
 }
 
-/// The particles of this rank; each must be where its cell is.
+/// Returns the number of particles on this rank, and checks that each is in its cell.
 int particlesHere(Runner& run) {
   int count = 0;
   for (const Patch& patch : run.grid.patches()) {
@@ -58,7 +58,7 @@ int particlesHere(Runner& run) {
   return count;
 }
 
-/// Particles of this rank after the second half has become coarse.
+/// Returns the number of particles on this rank after the second half has been coarsened.
 int particlesAfter(const mpi::Communicator& ranks, const PatchCosts& costs) {
   Runner run(refinedLine(), 1, ranks);
   TaskList list;

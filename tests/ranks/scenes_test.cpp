@@ -38,10 +38,10 @@ std::string resultOf(const std::string& scene, std::vector<std::string> sets, co
                          std::to_string(report.particles));
 }
 
-/// The number of axes of a scene with several cells.
+/// Returns the number of axes along which a scene has several cells.
 int dimensionOf(const std::string& scene) { return readScene(scene, {}, catalogue()).grid->dimension(); }
 
-/// Four layouts of a scene, with no more patches along an axis than cells.
+/// Returns four layouts of patches for a scene, with at most as many patches along an axis as cells.
 std::vector<Index3> layoutsOf(const std::string& scene) {
   const Problem problem = readScene(scene, {}, catalogue());
   const Index3 most = problem.grid->level().domain().resolution;
@@ -54,8 +54,8 @@ std::vector<Index3> layoutsOf(const std::string& scene) {
   return layouts;
 }
 
-/// On 2, 3 and 4 ranks, each with another of the layouts and numbers of threads from the `first` on, comes what one
-/// rank and one patch give.
+/// Expects that runs on 2, 3 and 4 ranks, with different layouts and numbers of threads from the `first` on, give the
+/// result of one rank and one patch.
 void expectSame(const std::string& scene, const std::vector<Index3>& layouts, const std::vector<std::string>& sets,
                 std::size_t first = 0) {
   SCOPED_TRACE(scene);
@@ -81,7 +81,7 @@ bool solves(const Component& component) {
   return std::any_of(tasks.tasks().begin(), tasks.tasks().end(), [](const tasks::Task& task) { return task.perRank; });
 }
 
-/// Every explicit scene, but for those that are made to fail.
+/// Returns every explicit scene except those that are meant to fail.
 std::vector<std::string> scenes() {
   std::vector<std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator("ups"))

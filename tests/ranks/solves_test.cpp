@@ -19,7 +19,7 @@ namespace {
 using data::Generation;
 using test::onRanks;
 
-/// A field as all ranks see it: for each cell the number there, or the sums over its particles, `width` numbers each.
+/// Returns a field on all ranks: for each cell its value or the sums over its particles, `width` values each.
 std::vector<double> gathered(data::Warehouse& warehouse, const std::string& label, int width,
                              const mpi::Communicator& ranks) {
   const grid::Grid& grid = warehouse.grid();
@@ -45,7 +45,7 @@ std::vector<double> gathered(data::Warehouse& warehouse, const std::string& labe
   return field;
 }
 
-/// The field at the end of a scene.
+/// Returns the field at the end of a scene.
 std::vector<double> result(const std::string& scene, const std::string& label, int width, std::vector<std::string> sets,
                            const mpi::Communicator& ranks) {
   sets.push_back("DataArchiver/outputInterval=0");
@@ -58,7 +58,7 @@ std::vector<double> result(const std::string& scene, const std::string& label, i
   return gathered(simulation.warehouse(), label, width, ranks);
 }
 
-/// On 2 and 4 ranks as on one: each number differs by less than 1e-10 of the greatest.
+/// Expects that runs on 2 and 4 ranks agree with one rank to 1e-10 of the largest value.
 void expectSame(const std::string& scene, const std::string& label, int width, const std::vector<std::string>& sets) {
   SCOPED_TRACE(scene);
   const std::vector<double> expected = result(scene, label, width, sets, mpi::Communicator::alone());

@@ -34,7 +34,7 @@ double valueOf(test::Runner& run, const char* reduction) {
   return run.warehouse.reductionValues(run.table.find(reduction, -1)).at(0);
 }
 
-/// Ghosts within `width` that differ from what their owners have, on all ranks.
+/// Returns the number of ghosts within `width` that differ from their owners' values, over all ranks.
 double differingGhosts(const mpi::Communicator& ranks, const Index3& patches, int width, bool periodic) {
   test::Runner run(plane(patches, periodic), 1, ranks);
   TaskList list;
@@ -61,7 +61,7 @@ double differingGhosts(const mpi::Communicator& ranks, const Index3& patches, in
 /// they stay.
 class Swarm {
  public:
-  /// A rank that `fails` does so once, at the start of a step.
+  /// If `fails`, the rank fails once, at the start of a step.
   Swarm(const mpi::Communicator& ranks, const Index3& patches, double jump, bool fails = false)
       : run(plane(patches, jump > 0), 1, ranks), failing(fails) {
     TaskList start, advance;
@@ -90,15 +90,15 @@ class Swarm {
                        true);
     run.step(begin);
   }
-  /// Patches change ranks before each step from now on: all to one, or to each another number of them.
+  /// From now on patches move between ranks before each step: all to one rank, or each to some other.
   void keepMoving() { moves = true; }
-  /// Whether a step that may be repeated is to be.
+  /// Whether a step that may be repeated has to be.
   bool isRepeated() {
     StepInfo at;
     at.mayRepeat = true;
     return run.scheduler.run(step, at).has_value();
   }
-  /// What is wrong after some steps, and how many particles there are.
+  /// Returns the number of errors after a number of steps, and the number of particles.
   std::pair<double, double> after(int steps) {
     double all = 0;
     for (int k = 0; k < steps; ++k) {
@@ -132,7 +132,7 @@ class Swarm {
       }
     });
   }
-  /// Particles in a wrong cell, with another's mark or out of order; ghosts stand beyond the grid.
+  /// Counts particles in a wrong cell, with a wrong mark or unsorted; ghosts lie beyond the grid.
   static void inspect(const Patch& patch, const Material&, ParticleView<const Vec<2>> at,
                       ParticleView<const ParticleId> ids, ParticleView<const double> marks, Sum& bad, Sum& all) {
     forEach<2>(at.cells(), [&](const Index<2>& cell) {
@@ -250,8 +250,8 @@ TEST(Ranks, MeasureNoMoreThanTheClockByAnyNumberOfThreads) {
   });
 }
 
-/// Ghosts that differ from what their owners have, where other tasks run between the one that computes them and the one
-/// that reads them, and one of these breaks a bound on the last rank.
+/// Returns the number of wrong ghosts, and the message, where other tasks run between the task that computes the
+/// ghosts' values and the one that reads them; one of these violates a bound on the last rank.
 std::pair<double, std::string> readLater(const mpi::Communicator& ranks, bool breaks, bool mayRepeat = true) {
   test::Runner run(plane({{4, 3, 1}}, false), 1, ranks);
   TaskList list;

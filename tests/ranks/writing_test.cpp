@@ -21,7 +21,7 @@ using test::onRanks;
 
 namespace {
 
-/// Numbers from 0.5 on, of which a rank has every so-manieth run of some length.
+/// Values from 0.5 on; a rank has every n-th run of a given length.
 class Shared : public Source {
  public:
   Shared(const mpi::Communicator& ranks, std::size_t entries, int components, std::size_t run)
@@ -73,7 +73,7 @@ Array sharedArray(const mpi::Communicator& ranks, std::size_t entries, int compo
           std::make_shared<Shared>(ranks, entries, components, run)};
 }
 
-/// A folder that all ranks know.
+/// A folder whose path all ranks know.
 class SharedFolder {
  public:
   explicit SharedFolder(const mpi::Communicator& ranks) {
@@ -87,7 +87,7 @@ class SharedFolder {
   std::filesystem::path path_;
 };
 
-/// A file of datasets that are small, cut by slabs, of several components, of scattered entries, and of none.
+/// Writes a file of datasets: small, cut into slabs, with several components, scattered, and empty.
 std::string fileOf(const Writers& writers, const SharedFolder& folder, const Storage& how,
                    std::size_t behindOthers = 0) {
   const mpi::Communicator& ranks = writers.ranks();

@@ -17,7 +17,7 @@ Vec3 along(int axis, double x) {
   return point;
 }
 
-/// Mean by 20000 midpoints in each piece between breaks.
+/// Returns the mean by 20000 midpoints in each interval between breaks.
 double bruteMean(const GasReference& gas, double a, double b, double t, double (*field)(const GasState&)) {
   std::vector<double> edges{a};
   for (double x : gas.breaks(0, t)) {
@@ -65,7 +65,7 @@ TEST(ExactRiemann, OfAStiffenedGasKeepsMassMomentumAndEnergyAcrossItsShock) {
   EXPECT_NEAR(totalEnthalpy(behind) / totalEnthalpy(ahead), 1, 1e-12);
 }
 
-/// Water at 1e9 Pa beside air: R. Saurel & R. Abgrall, J. Comput. Phys. 150 (1999) 425.
+/// Water at 1e9 Pa next to air: R. Saurel & R. Abgrall, J. Comput. Phys. 150 (1999) 425.
 RiemannProblem waterBesideAir() {
   RiemannProblem problem = tube({1000, 0, 1e9}, {50, 0, 1e5}, 0.7);
   problem.gas = {4.4, 6e8};

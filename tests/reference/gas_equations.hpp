@@ -8,8 +8,8 @@
 
 namespace tushar::reference {
 
-/// The greatest residual at (x, t) of the gas equations in the axes of `axes` (1: counts), every derivative by central
-/// differences of fourth order with step `d`: of d rho/dt + div(rho v), rho Dv/Dt + grad p and Dp/Dt + gamma p div v.
+/// Returns the largest residual at (x, t) of the gas equations along those `axes` that are 1: d rho/dt + div(rho v),
+/// rho Dv/Dt + grad p and Dp/Dt + gamma p div v. Derivatives are central differences of fourth order with step `d`.
 inline double gasResidual(const GasReference& gas, const Vec3& x, double t, double gamma, double d,
                           const Vec3& axes = Vec3::Ones()) {
   const auto slope = [&](const Vec3& along, double inTime) -> Fields {
@@ -30,10 +30,10 @@ inline double gasResidual(const GasReference& gas, const Vec3& x, double t, doub
   return std::max({std::abs(mass), momentum.cwiseAbs().maxCoeff(), std::abs(pressure)});
 }
 
-/// Greatest difference of any field of two states.
+/// Returns the largest difference of any field between two states.
 inline double difference(const GasState& a, const GasState& b) { return (toFields(a) - toFields(b)).abs().maxCoeff(); }
 
-/// Mean over a box by n^3 midpoints (one along an axis without extent).
+/// Returns the mean over a box by n^3 midpoints (one along an axis without extent).
 inline GasState midpointMean(const GasReference& gas, const Vec3& lower, const Vec3& upper, double t, int n) {
   std::array<int, 3> count;
   for (int d = 0; d < 3; ++d) count[d] = upper[d] > lower[d] ? n : 1;

@@ -8,7 +8,7 @@
 namespace tushar::reference {
 namespace {
 
-/// Density x^3 y^2 + z, with a jump of the pressure at x = .3 and a kink of the energy at an undeclared place.
+/// Density x^3 y^2 + z, with a pressure jump at x = .3 and an undeclared kink of the energy.
 class Polynomial : public GasReference {
  public:
   GasState at(const Vec3& x, double) const override {

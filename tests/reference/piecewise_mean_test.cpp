@@ -8,7 +8,7 @@
 namespace tushar::reference {
 namespace {
 
-/// Density 1 within a surface and 0 outside, pressure x² y z inside.
+/// Density 1 within a surface and 0 outside; pressure x² y z inside.
 template <class Inside>
 class Body : public GasReference {
  public:

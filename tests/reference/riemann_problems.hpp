@@ -47,7 +47,7 @@ inline RiemannProblem leblancTube() {
   return tube({1, 0, .1 * (gamma - 1)}, {1e-3, 0, 1e-10 * (gamma - 1)}, .33, gamma);
 }
 
-/// Tubes that strain the solver: strong ratios, cold gas, gamma near 1 and large.
+/// Tubes that are hard for the solver: strong ratios, cold gas, gamma near 1 and large gamma.
 inline std::vector<RiemannProblem> hardTubes() {
   return {
       leblancTube(),
@@ -64,7 +64,7 @@ inline std::vector<RiemannProblem> hardTubes() {
   };
 }
 
-/// Composite midpoint rule with `n` points, for what needs no more than its accuracy.
+/// Composite midpoint rule with `n` points, for checks that need no higher accuracy.
 inline double midpointMean(const std::function<double(double)>& f, double a, double b, int n) {
   double sum = 0;
   for (int k = 0; k < n; ++k) sum += f(a + (b - a) * (k + 0.5) / n);

@@ -28,7 +28,7 @@ double totalEnergy(const RiemannState& s, double gamma) {
   return s.pressure / (gamma - 1) + 0.5 * s.density * s.velocity * s.velocity;
 }
 
-/// Jumps of mass, momentum and energy flux in the frame of the shock, each relative to the flux.
+/// Expects continuous mass, momentum and energy fluxes in the frame of the shock, relative to the flux.
 void expectRankineHugoniot(const RiemannState& ahead, const RiemannState& behind, double speed, double gamma) {
   const double u0 = ahead.velocity - speed;
   const double u1 = behind.velocity - speed;

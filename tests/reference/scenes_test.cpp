@@ -20,7 +20,7 @@ double cellError(const report::Report& report, const std::string& field) {
   throw std::logic_error("the report has no cell error of " + field);
 }
 
-/// Order of the L1 error of the cell means of a field between two runs, the second on the finer grid.
+/// Returns the order of the L1 error of a field's cell means between two runs, the second on the finer grid.
 double orderOf(const std::string& field, const report::Report& coarse, const report::Report& fine) {
   return std::log(cellError(coarse, field) / cellError(fine, field)) / std::log(coarse.spacing / fine.spacing);
 }
@@ -29,7 +29,7 @@ std::string cells(int x, int y = 1, int z = 1) {
   return "Grid/Level/Box/resolution=[" + std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + "]";
 }
 
-/// What is wrong with a scene, without its place.
+/// Returns the error message for a scene, without its place.
 std::string problemOf(const std::string& scene, const Overrides& overrides) {
   try {
     scene::readScene(scene, overrides, catalogue());
@@ -111,7 +111,7 @@ TEST(NohScene, RefusesARegionUpsideDown) {
             "max is below min along x: -1 < 0 m");
 }
 
-/// Runs the blast in d dimensions on n cells of 1.2 / n m per axis, all of its energy (1 J, J/m or J/m²) in the first.
+/// Runs the blast in d dimensions on n cells of 1.2 / n m per axis, with all energy (1 J, J/m or J/m²) in the first.
 report::Report blast(int d, int n) {
   const auto corner = [d](double along, double across) {
     return fmt::format("[{},{},{}]", along, d > 1 ? along : across, d > 2 ? along : across);

@@ -16,7 +16,7 @@ SedovProblem inDimensions(int d, double gamma = 1.4) {
   return problem;
 }
 
-/// Integral over the ball within the shock of what `f` makes of a state, by midpoints of r^d.
+/// Returns the integral of `f` of the state over the ball within the shock, by midpoints of r^d.
 template <class F>
 double integral(const Sedov& blast, int d, double t, const F& f) {
   const double radius = blast.shockRadius(t), volume = d == 1 ? 2 : d == 2 ? M_PI : 4 * M_PI / 3;

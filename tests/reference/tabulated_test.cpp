@@ -12,7 +12,7 @@
 namespace tushar::reference {
 namespace {
 
-/// 4 x 2 cells of .5 x 1 m from (1, -1, 0); density 10 j + i, pressure twice, u = (i, j, 0).
+/// A table of 4 x 2 cells of .5 x 1 m from (1, -1, 0): density 10 j + i, pressure 2 (10 j + i), u = (i, j, 0).
 GasTable plane() {
   GasTable table{Vec3(1, -1, 0), Vec3(3, 1, 1), {{4, 2, 1}}, 0.3, {}};
   for (int j = 0; j < 2; ++j)
@@ -63,7 +63,7 @@ TEST(Tabulated, RefusesATableThatDoesNotFit) {
   EXPECT_THROW(Tabulated{table}, std::invalid_argument);
 }
 
-/// Writes an output with the gas of plane() below `group`; `cells` along x as told.
+/// Writes an output with the gas of plane() below `group`, with the given number of cells along x.
 std::filesystem::path writeOutput(const std::filesystem::path& path, const std::string& group, int cells = 4) {
   output::Hdf5File file(path, true, 0);
   const GasTable table = plane();

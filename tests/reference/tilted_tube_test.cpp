@@ -13,7 +13,7 @@ namespace {
 
 const Vec3 kDiagonal = Vec3(1, 1, 0) / std::sqrt(2.0);
 
-/// Sod's tube along the diagonal: dense gas within .3 m of planes through the origin and every 1.4 m.
+/// Sod's tube along the diagonal: dense gas within .3 m of parallel planes through the origin and every 1.4 m.
 TiltedTube mirroredSod() { return {tube({1, 0, 1}, {.125, 0, .1}, 0.3), {kDiagonal, 0.0, 1.4}}; }
 
 TEST(TiltedTube, IsTheTubeAlongX) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A shock tube along x, y and z of a line, a plane and a space: the same errors, steps and drifts but for round-off."""
+"""A shock tube along x, y and z of a line, a plane and a space: same errors, steps and drifts up to round-off."""
 import pathlib
 import sys
 import unittest
@@ -12,12 +12,12 @@ GRIDS = {1: ((100, 1, 1), (1, 1, 1)), 2: ((40, 4, 1), (1, .1, 1)), 3: ((40, 4, 3
 
 
 def turned(values, axis):
-    """A vector as tag text, with what was along x along `axis`, y and z after it."""
+    """Returns the text of a vector whose first component is moved to `axis`; y and z follow it cyclically."""
     return "[" + ",".join(str(values[(d - axis) % 3]) for d in range(3)) + "]"
 
 
 def tube(scene, objects, grid, axis, *sets):
-    """The report of Sod's tube along an axis; of `sets`, a pair holds a vector to turn as well."""
+    """Returns the report of Sod's tube along an axis; pairs among `sets` hold vectors to be turned as well."""
     cells, lengths = grid
     result = run(scene, "Grid/Level/Box/resolution=" + turned(cells, axis),
                  "Grid/Level/Box/upper=" + turned(lengths, axis),
@@ -31,7 +31,7 @@ def tube(scene, objects, grid, axis, *sets):
 
 class Axes(unittest.TestCase):
     def assert_alike(self, one, other, path=""):
-        """Numbers of nested reports, to 1e-13 of the number."""
+        """Asserts that the numbers of nested reports agree to a relative 1e-13."""
         if isinstance(one, dict):
             self.assertEqual(one.keys(), other.keys(), path)
             for key in one:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A run that was cut, or whose checkpoints are damaged, goes on from the last whole one."""
+"""A run that was cut off, or whose checkpoints are damaged, continues from the last intact one."""
 import pathlib
 import shutil
 import subprocess
@@ -34,7 +34,7 @@ class Crash(unittest.TestCase):
         return {path: path.read_bytes() for path in self.here.uda.rglob("*") if path.is_file()}
 
     def damaged(self, harm):
-        """Errors and report of a restart whose newest checkpoint was harmed."""
+        """Returns errors and report of a restart whose newest checkpoint was damaged."""
         last = self.here.checkpoints[-1]
         saved = self.here.path / "saved"
         shutil.copytree(self.here.uda / "checkpoints", saved)

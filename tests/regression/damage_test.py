@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A checkpoint that is cut short or of which a byte has changed is named and left aside, or does no harm.
+"""A truncated or altered checkpoint is reported and skipped, or the damage has no effect.
 
 Some places of each file; PLACES=1000 tests/regression/damage_test.py harms more.
 """
@@ -23,7 +23,7 @@ PAGE = 4096
 class Damage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """A run that has its last two checkpoints, and ends a few steps later: what the tests go on from."""
+        """Makes a run with its last two checkpoints that ends a few steps later; the tests restart from it."""
         cls.whole = Folder()
         cls.addClassCleanup(cls.whole.cleanup)
         cls.fingerprint = cls.whole.run(SOD)[2]["fingerprint"]

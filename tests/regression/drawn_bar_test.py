@@ -82,7 +82,7 @@ COPPER = dict(density=8930, heat=414, young=9 * 129e9 * 46e9 / (3 * 129e9 + 46e9
 
 
 def yield_stress(strain, rate, temperature):
-    """Johnson & Cook's, with Uintah's factor of rates below 1/s and of temperatures below T_r."""
+    """Returns Johnson and Cook's yield stress with Uintah's factors for rates below 1/s and temperatures below T_r."""
     t = (temperature - 298) / (1793 - 298)
     faster = (1 + rate)**.025 if rate < 1 else 1 + .025 * math.log(rate)
     return (90e6 + 292e6 * strain**.31) * faster * (1 - t if t < 0 else 1 - t**1.09)
@@ -104,7 +104,7 @@ def drawn(end, steps=20000):
 
 class DrawnBar(unittest.TestCase):
     def state(self, step):
-        """Plastic strain and temperature after 9.1 s."""
+        """Returns plastic strain and temperature after 9.1 s."""
         with tempfile.TemporaryDirectory() as folder:
             scene = pathlib.Path(folder, "bar.ups")
             scene.write_text(SCENE)

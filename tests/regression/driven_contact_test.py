@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Masters that turn, friction along planes between bodies, pressures on the faces of particles, and torques."""
+"""Rotating master bodies, friction along planes between bodies, pressures on particle faces, and torques."""
 import cmath
 import math
 import pathlib
@@ -16,7 +16,7 @@ LATTICE = [(k + .5) * .025 for k in range(-6, 6)]  # of the particles in the hub
 
 
 def mean_acceleration(lines, mass, start):
-    """Of a centre of mass that starts at rest at `start`, from its way until the last line."""
+    """Returns the mean acceleration of a centre of mass initially at rest at `start`, from its final displacement."""
     moved = (lines[-1][1] - lines[0][1]) / mass
     return 2 * moved / (lines[-1][0] - start) ** 2
 
@@ -61,7 +61,7 @@ class PlaneFriction(SceneTest):
 
 class Faces(SceneTest):
     def test_pressures_give_the_momentum_of_their_area(self):
-        """A block in free space: 8000 Pa on .0625 m^2, grown in .02 s."""
+        """A block in free space under 8000 Pa on .0625 m^2, applied gradually over .02 s."""
         text = (ROOT / BLOCK).read_text()
         start = text.index('<material name="plane">')
         free = text[:start] + text[text.index("<contact>"):]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The energy budget of solids: what came and what went, how well it closes, and the same bits on any layout."""
+"""The energy budget of solids: gains and losses, the residual, and same bits on any layout."""
 import pathlib
 import sys
 import unittest
@@ -23,7 +23,7 @@ DRIVEN = ("Grid/BoundaryConditions/Face[2]/BCType/value=[-0.01,0,0]", "Time/maxT
 
 class EnergyBudget(unittest.TestCase):
     def amounts_of(self, scene, *sets, present):
-        """The amounts of a run by their short names, and what is left; all that are not `present` are 0."""
+        """Returns the energies of a run by short names, and the residual; all that are not `present` must be 0."""
         energies = run(scene, BUDGET, *sets).report["energies"]
         found = energies["came"] | energies["went"]
         self.assertEqual(set(found), set(NAMES.values()))

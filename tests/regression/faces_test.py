@@ -14,7 +14,7 @@ BARS = (ROOT / "ups/solid/two_material_contact.ups").read_text().replace("[80,1,
 
 class Faces(SceneTest):
     def particles(self, flyer, target):
-        """How many particles of 1/32 m both bars have."""
+        """Returns the number of particles of 1/32 m in both bars."""
         text = BARS.replace("[0.2,0,0]</min><max>[1.2", flyer).replace("[1.2,0,0]</min><max>[3.2", target)
         text = text.replace('<save label="TotalMomentum"/>', '<save label="TotalMass"/>')
         lines = globals_of(self.scene(text), "TotalMass", sets=("Time/max_Timesteps=1",))["TotalMass"]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A run that goes wrong: what it says, what it leaves behind, and that one can go on from there."""
+"""A run that fails: its message, the files that it leaves, and a restart from them."""
 import json
 import pathlib
 import re
@@ -13,7 +13,7 @@ from sus import ROOT, SUS
 
 
 def without_redistribution(folder):
-    """Sod's tube by the paper's method with one particle per cell, which empties a cell and dies."""
+    """Sod's tube by the paper's method with one particle per cell, which empties a cell and fails."""
     text = (ROOT / "ups/mpm/sod_redistribute.ups").read_text()
     start, end = text.index("      <redistribute>"), text.index("</redistribute>") + len("</redistribute>")
     scene = pathlib.Path(folder, "bare.ups")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bodies that burn: rates against closed forms, what is conserved, the same bits on any layout, wrong scenes."""
+"""Burning bodies: rates against closed forms, conservation, same bits on any layout, wrong scenes."""
 import math
 import pathlib
 import sys
@@ -20,7 +20,7 @@ GONE = ("Models/Model/Simple_Burn/BurnCoeff=4", "Time/maxTime=3", "Grid/Level/Bo
 
 
 class References(unittest.TestCase):
-    """Half as much again as the table of ups/fsi/README.md."""
+    """Tests errors against bounds 1.5 times the values in ups/fsi/README.md."""
 
     def assert_within(self, errors, limit, *names):
         for name in names:
@@ -77,7 +77,7 @@ STEADY = {"IdealGasConst": 1, "PreExpCondPh": .03, "ActEnergyCondPh": 5, "PreExp
 
 
 def steady_rate(pressure, temperature, density):
-    """The rate at which both equations of Ward, Son and Brewster hold."""
+    """Returns the rate that satisfies both equations of Ward, Son and Brewster."""
     gas, factor, energy, far, low, high, k_gas, k, c, molar = STEADY.values()
 
     def rate(surface):

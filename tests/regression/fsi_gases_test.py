@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Several gases around bodies: exactness, errors, the mass of each, the same bits on any layout."""
+"""Several gases around bodies: exactness, errors, the mass of each gas, same bits on any layout."""
 import pathlib
 import re
 import sys
@@ -50,7 +50,7 @@ class Gases(unittest.TestCase):
 
 class Conservation(ConservationTest):
     def warm(self, heat):
-        """A body and two gases of unlike temperatures, one of which is in the other one's region, too."""
+        """A body and two gases of different temperatures; one gas is also present in the other's region."""
         text = changed(also(rigid(CONTACT), *self.KEPT), LIGHT, ("<temperature>10<", "<temperature>30<"),
                        ("<reference_pressure>1<", "<reference_pressure>0<"),
                        ("<res>[4,1,1]</res>", "<res>[4,1,1]</res><temperature>5</temperature>"),
@@ -64,7 +64,8 @@ class Conservation(ConservationTest):
             self.assert_kept(self.warm(heat), "Time/maxTime=0.5")
 
     def assert_energy_grows(self, text, rates):
-        """By the mass of each gas times its rate [W/kg] and the time. `rates`: by names of totals, in order."""
+        """Asserts that energy grows by each gas's mass times rate [W/kg] times time. `rates`: in order of the
+        totals."""
         tags = (f"<add_heat_matls>{[1 + k for k in range(len(rates))]}</add_heat_matls>"
                 f"<add_heat_coeff>{list(rates.values())}</add_heat_coeff>"
                 "<add_heat_t_start>0</add_heat_t_start><add_heat_t_final>9</add_heat_t_final>")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Implicit steps of a gas beside bodies: exactness, errors, what is conserved, the same bits."""
+"""Implicit steps of a gas beside bodies: exactness, errors, conservation, same bits."""
 import pathlib
 import sys
 import unittest
@@ -13,7 +13,7 @@ from uda import Folder
 
 
 def implicit(text):
-    """A scene whose steps sound does not limit."""
+    """Returns a scene whose time steps are not limited by sound."""
     order = '<advection type="SecondOrder"/>'
     knob = "<TimeStepControl><knob_for_speedSound>0</knob_for_speedSound></TimeStepControl>"
     solver = "<ImplicitSolver><Solver><preconditioner>jacobi</preconditioner></Solver></ImplicitSolver>"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Gas and bodies on grids of several levels: the finest follows bodies, nothing is lost between levels."""
+"""Gas and bodies on grids of several levels: the finest level follows bodies; conservation between levels."""
 import pathlib
 import sys
 import unittest
@@ -25,7 +25,8 @@ def refined(text):
 
 class Conservation(ConservationTest):
     def assert_kept_on_levels(self, text, *sets):
-        """But for the strain of the body, whose energy is not summed; the gas loses what the body gets."""
+        """Asserts conservation, except for the body's strain energy, which is not summed; the gas loses what the body
+        gains."""
         names = ("GasEnergy", "GasWorkOnBodies")
         self.assert_kept(refined(saving(text, *self.KEPT)), *sets, elastic=True)
         found = globals_of(self.scene(refined(saving(text, *names))), *names, sets=sets)
@@ -74,7 +75,7 @@ class Levels(SceneTest):
 
 
 class Shares(SceneTest):
-    """Of several gases on levels: between levels each is interpolated by itself."""
+    """Several gases on several levels: each gas is interpolated separately between levels."""
 
     def test_add_up_to_one(self):
         text = changed(GASES, LIGHT, ("<temperature>10<", "<temperature>30<"),

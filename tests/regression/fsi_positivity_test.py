@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Gas around bodies: no cell holds less than nothing."""
+"""Gas around bodies: no cell has a negative content."""
 import pathlib
 import re
 import sys
@@ -14,7 +14,7 @@ PANEL = ("Grid/Level/Box/resolution=[150,32,1]", "Grid/Level/Box/upper=[0.25,0.0
 
 
 class Positivity(SceneTest):
-    """No cell, holes in bodies included, holds less gas than none, or heat."""
+    """No cell, holes in bodies included, has a negative gas mass or heat."""
     LEAST = ("LeastGasMass", "LeastGasHeat")
 
     def assert_positive(self, name, *sets, least=0):

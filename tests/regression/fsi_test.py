@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Gas and bodies on one grid: exactness, errors, what is conserved, the same bits on any layout, wrong scenes."""
+"""Gas and bodies on one grid: exactness, errors, conservation, same bits on any layout, wrong scenes."""
 import pathlib
 import re
 import sys
@@ -18,7 +18,7 @@ TOTALS = ("TotalMass", "TotalMomentum", "KineticEnergy", "GasMass", "GasMomentum
 
 
 def changed(text, *changes):
-    """A scene with texts replaced, each of which must be there."""
+    """Returns a scene with texts replaced; each text must occur."""
     for before, after in changes:
         assert before in text, before
         text = text.replace(before, after)
@@ -36,7 +36,7 @@ def saving(text, *names):
 
 
 def also(text, *names):
-    """A scene that saves these besides, if it does not yet."""
+    """Returns a scene that also saves the given variables, if it does not yet."""
     return saving(text, "GasEnergy", *(name for name in names if f'label="{name}"' not in text))
 
 
@@ -111,7 +111,7 @@ RESTING = "<velocity>[1,0.618,0]</velocity>\n        </geom_object>\n      </mat
 
 
 class ConservationTest(SceneTest):
-    """A test of what gas and bodies in a closed box keep."""
+    """A test of the quantities that gas and bodies conserve in a closed box."""
     KEPT = (*TOTALS, "GasHeatToBodies")
 
     def assert_kept(self, text, *sets, elastic=False):
@@ -172,13 +172,13 @@ WARM = changed(also(PLUG, *GIVEN), ("<heat>[0]", "<heat>[500]"),
 
 
 def thin_plug(width):
-    """The scene of the plug with one that is so many cells of .01 m thick, of the same mass."""
+    """Returns the scene of the plug with a plug `cells` cells of .01 m thick, of the same mass."""
     return changed(also(PLUG, *GIVEN), ("[0.95,0,0]", "[1,0,0]"), ("[1.05,1,1]", f"[{1 + .01 * width},1,1]"),
                    ("<density>5<", f"<density>{50 / width}<"))
 
 
 class Given(SceneTest):
-    """What went from the gas to bodies since the start, and through them."""
+    """What the gas has transferred to and through bodies since the start."""
 
     def given(self, text, *sets):
         return globals_of(self.scene(text), *TOTALS, *GIVEN, sets=sets)
@@ -294,7 +294,7 @@ HOT = """<geom_object><cylinder label="hot"><bottom>[0.6,0.3,-1]</bottom><top>[0
 
 
 class FarBodies(SceneTest):
-    """A gas that has not yet heard of a body has the bits of a gas alone."""
+    """A gas that a body has not yet influenced has the same bits as a gas alone."""
 
     def assert_bits_of_ice(self, text, *sets):
         text = re.sub(r'    <save label.*<save label.*?/>\n', STATE, text, flags=re.DOTALL)

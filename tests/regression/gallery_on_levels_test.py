@@ -24,7 +24,7 @@ def section(text, tag):
 
 
 def scene_of(path):
-    """The gas of a scene of particles, on cells twice as large and up to three levels."""
+    """The gas of a particle scene, on cells twice as large and up to three levels."""
     text = path.read_text()
     for pattern, instead in CHANGES:
         text = re.sub(pattern, instead, text, flags=re.S)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checkpoints that the command line asks for, and what `sus -V` says."""
+"""Checkpoints requested on the command line, and the output of `sus -V`."""
 import json
 import pathlib
 import re
@@ -21,7 +21,7 @@ def sus(*words, folder=ROOT):
 
 
 def report_of(*words, folder):
-    """Runs sus; its report."""
+    """Runs sus and returns its report."""
     path = pathlib.Path(folder, "report.json")
     done = sus(*words, "--quiet", "--json", path)
     assert done.returncode == 0, done.stderr
@@ -29,7 +29,7 @@ def report_of(*words, folder):
 
 
 def checkpoints(folder):
-    """Steps of the checkpoints in the one archive of a folder."""
+    """Returns the steps of the checkpoints in the only archive of a folder."""
     return sorted(int(one.name[1:]) for one in pathlib.Path(folder).glob("*.uda.*/checkpoints/t*"))
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Implicit steps of solids: where explicit ones end, on any patches, and what a solve that fails says."""
+"""Implicit steps of solids: comparison with explicit ones, any patches, and the messages of a solve that fails."""
 import pathlib
 import re
 import subprocess
@@ -17,7 +17,7 @@ COARSE = ("MPM/interpolator=gimp", "Grid/Level/Box/upper=[1.2,0.8,0.05]", "Grid/
 
 
 def last_of(scene, names, sets):
-    """The last line of each global, less its time."""
+    """Returns the last line of each global, without its time."""
     with tempfile.TemporaryDirectory() as folder:
         command = [SUS, scene, "--quiet", "--output", folder]
         for override in sets:
@@ -29,7 +29,7 @@ def last_of(scene, names, sets):
 
 
 def energies_of(scene, sets):
-    """Time and strain energy of each step."""
+    """Returns time and strain energy of each step."""
     with tempfile.TemporaryDirectory() as folder:
         command = [SUS, scene, "--quiet", "--output", folder]
         for override in sets:
@@ -40,7 +40,7 @@ def energies_of(scene, sets):
 
 
 def explicit(text):
-    """The same scene by explicit steps with a damping that brings it to rest."""
+    """The same scene with explicit steps and a damping that brings it to rest."""
     text = re.sub(r"<dynamic>.*</Solver>", "<artificial_damping_coeff>6</artificial_damping_coeff>", text,
                   flags=re.DOTALL)
     text = text.replace('type="impm"', 'type="mpm"').replace(">implicit<", ">explicit<")
@@ -49,7 +49,7 @@ def explicit(text):
 
 
 def free(text):
-    """The same beam, which nothing holds, with inertia."""
+    """The same beam without supports and with inertia."""
     text = re.sub(r'.*label="Velocity" var="Dirichlet".*\n', "", text)
     return text.replace("<dynamic>false", "<dynamic>true").replace('"StrainEnergy"', '"TotalMomentum"')
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Ctrl-C, SIGTERM and max_wall_time end a run after the step, with its output, report and a checkpoint written."""
+"""Ctrl-C, SIGTERM and max_wall_time end a run after the step; its output, report and a checkpoint are written."""
 import json
 import os
 import pathlib
@@ -21,7 +21,7 @@ FINE = "Grid/Level/Box/resolution=[2000,1,1]"
 
 class Interrupt(FolderTest):
     def interrupted(self, number):
-        """Exit code, report and files of a long run that gets a signal once it has begun to write."""
+        """Returns exit code, report and files of a long run that receives a signal once it has begun to write."""
         with tempfile.TemporaryDirectory() as folder:
             report = pathlib.Path(folder, "report.json")
             run = subprocess.Popen([SUS, "ups/mpm/sod.ups", "--output", folder, "--json", report, "--set",
@@ -93,7 +93,7 @@ class Interrupt(FolderTest):
             self.assert_goes_on_to_the_bits_of_the_uncut_run(here)
 
     def started(self, ranks=1):
-        """A run that has written its first output, and that would go on for minutes."""
+        """Starts a run and returns once it has written its first output; it would take minutes to end."""
         here = self.folder(ranks)
         run = subprocess.Popen(here.command([SOD, "--output", here.path], ("Grid/Level/Box/resolution=[20000,1,1]",)),
                                cwd=ROOT)

@@ -67,7 +67,7 @@ class Kills(unittest.TestCase):
         return killed
 
     def assert_reads(self, here):
-        """The lists of a killed run are whole, and name outputs that are there."""
+        """Asserts that the lists of a killed run are complete and name existing outputs."""
         for uda in here.path.glob("*.uda"):
             listed = ElementTree.parse(uda / "index.xml").iterfind("timesteps/timestep")
             self.assertEqual([at.get("href") for at in listed if not (uda / at.get("href")).exists()], [])

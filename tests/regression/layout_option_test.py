@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""-layout AxBxC: patches from the command line, in place of those of the scene, at a start and at a restart."""
+"""-layout AxBxC: patches from the command line instead of the scene's, at the start and at a restart."""
 import pathlib
 import sys
 import unittest
@@ -14,7 +14,7 @@ BOX = "Grid/Level/Box/"
 
 class LayoutOption(unittest.TestCase):
     def patches(self, layout, *sets):
-        """Patches of a run and its fingerprint."""
+        """Returns the patches of a run and its fingerprint."""
         result = run(SOD, "Time/max_Timesteps=5", *sets, options=("--quiet", *layout))
         self.assertEqual((result.code, result.err), (0, ""))
         return result.report["layout"]["patches"], result.report["fingerprint"]

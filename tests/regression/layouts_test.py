@@ -26,7 +26,7 @@ IMPLICIT = re.compile(r'<time_integrator>\s*implicit\s*<|type="impm"')
 
 
 def cells_of(scene):
-    """Cells along x, y, z."""
+    """Returns the number of cells along x, y, z."""
     return [int(count) for count in re.search(r"<resolution>\s*\[(.*?)\]", scene.read_text()).group(1).split(",")]
 
 
@@ -43,7 +43,7 @@ def layouts_of(cells):
 
 class Layouts(unittest.TestCase):
     def assert_same(self, scene, layouts, *sets, turn=0):
-        """One end, fingerprint and number of steps, whatever the patches and threads: 1, 2 and 4 in turn."""
+        """Asserts the same outcome, fingerprint and number of steps for any patches, on 1, 2 and 4 threads in turn."""
         prints = {}
         for place, layout in enumerate(layouts):
             threads = THREADS[(turn + place) % len(THREADS)]

@@ -98,7 +98,7 @@ class LevelSteps(FolderTest):
             np.testing.assert_array_equal(np.flip(ours[name].values, 2), image[name].values)
 
     def test_a_step_that_breaks_a_bound_is_repeated_as_a_whole(self):
-        """Steps three times too long leave some gas no pressure."""
+        """Steps three times too long lead to a negative pressure in some gas."""
         sets = (*PLANE, OWN, "Time/timestep_multiplier=3", "Time/recompute_timestep=true", steps(20))
         found = set()
         for options in ((), ("-layout", "1x1x1", "-nthreads", "2"), ("-layout", "3x2x1")):
@@ -124,7 +124,8 @@ class LevelSteps(FolderTest):
         self.assertEqual(len(found), 1, found)
 
     def test_a_step_that_leaves_no_stable_step_is_undone(self):
-        """The fluxes of four levels leave a cell of Noh's shock no pressure, when all of them have made their steps."""
+        """The fluxes of four levels lead to a negative pressure in a cell of Noh's shock after the steps of all
+        levels."""
         scene, sets = "ups/euler/noh_levels.ups", [OWN, REGRIDDER + "max_levels=4"]
         here = self.folder()
         code, err, report = here.finish([scene, "--output", here.path], sets)
@@ -138,7 +139,7 @@ class LevelSteps(FolderTest):
         self.assertEqual(len({end["fingerprint"] for end in ends}), 1, ends)
 
     def test_sods_tube_has_the_error_of_one_step_for_all_levels(self):
-        """Both look at their grids every 8 steps of the finest level."""
+        """Both runs check their grids every 8 steps of the finest level."""
         own = run("ups/euler/sod_levels.ups", OWN).report
         same = run("ups/euler/sod_levels.ups", REGRIDDER + "min_timestep_interval=8").report
         error, limit = (one["errors"]["density"]["cell"]["L1"] for one in (own, same))
@@ -156,7 +157,7 @@ class LevelSteps(FolderTest):
         self.assertGreaterEqual(np.log2(errors[1] / errors[2]), 1.9)
 
     def test_lists_that_need_one_step_for_all_levels_are_refused(self):
-        """Each with its tag and its first task."""
+        """Each error message names the tag and the first task."""
         for scene, task in (("ups/burgers/levels.ups", "burgers::correct reads the new c.predictedU outside a patch"),
                             ("ups/solid/penetration_levels.ups", "uses particles (p."),
                             ("ups/heat/implicit_levels.ups", "needs all patches at once")):

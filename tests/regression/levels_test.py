@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Grids of several levels: the same bits on any patches, threads and ranks, through restarts, in a mirror, and where
-another way leads to the same cells; nothing is lost between levels; the errors of the finest cells."""
+"""Grids of several levels: same bits on any patches, threads and ranks, after restarts, for mirror images, and for
+grids that are specified in another way; conservation between levels; errors of the finest cells."""
 import pathlib
 import re
 import sys
@@ -38,7 +38,7 @@ def steps(count):
 
 
 def scene_of(levels="", amr="", pressure="1", density="1", velocity="[0,0,0]", cells=16, sides=SIDE_WALLS):
-    """A gas, between walls if nothing else is said, in a square whose cells have middles without rounding."""
+    """Returns a scene of a gas, between walls by default, in a square whose cell centres are exact numbers."""
     return f"""<Uintah_specification>
   <Meta><title>levels</title></Meta>
   <SimulationComponent type="euler"/>
@@ -67,14 +67,14 @@ def scene_of(levels="", amr="", pressure="1", density="1", velocity="[0,0,0]", c
 
 
 def adaptive(more=""):
-    """What follows in <AMR>: three levels where the density or the pressure jumps by a tenth."""
+    """Returns the content of <AMR>: three levels where the density or the pressure jumps by a tenth."""
     jumps = "".join(f'<Variable name="{name}" value=".1"/>' for name in ("c.density", "c.pressure"))
     return (f"<max_levels>3</max_levels><min_timestep_interval>4</min_timestep_interval>{more}</Regridder><Euler>"
             f"<Refinement_Criteria_Thresholds>{jumps}</Refinement_Criteria_Thresholds></Euler>")
 
 
 def levels_like(grid):
-    """<Level>s that make the grid of an output: of each level the boxes that are as fine, or finer."""
+    """Returns the <Level>s that reproduce an output's grid: for each level the boxes at least as fine."""
     text = ""
     for level in range(1, grid.levels):
         spacing = list(map(float, grid.level(level).spacing))
@@ -92,7 +92,7 @@ class Levels(FolderTest):
     maxDiff = None
 
     def ran(self, text, *sets):
-        """The archive and the report of a scene given as text."""
+        """Runs a scene given as text; returns its archive and its report."""
         here = self.folder()
         scene = here.path / "levels.ups"
         scene.write_text(text)
@@ -158,7 +158,7 @@ class Levels(FolderTest):
         self.assertLessEqual(abs(drift["momentum"]), 1e-13)
 
     def mirrored(self, axis):
-        """The ends of a blast off the middle, in a wind, and of its mirror image."""
+        """Returns the final states of an off-centre blast in a wind and of its mirror image."""
         ends = []
         for sign in (1, -1):
             place, wind = [.125, -.25], [.5, .25]
@@ -182,7 +182,7 @@ class Levels(FolderTest):
             self.assertEqual(ours.grid.counts, image.grid.counts)
 
     def assert_like_static(self, text, described):
-        """The run of a scene ends like the one whose <Level>s make the grid that it starts with."""
+        """Asserts that a run ends like one whose <Level>s give its initial grid."""
         archive, report = self.ran(text, steps(40))
         self.assertEqual(report["regrids"], 0)
         grid = archive[0].grid
@@ -234,7 +234,7 @@ class Levels(FolderTest):
         self.assertGreaterEqual(np.log2(errors[1] / errors[2]), 1.9)
 
     def test_heat_marks_the_cells_of_a_spot_itself(self):
-        """Of those of the finest everywhere, two fifths of the updates leave the error as it is."""
+        """Two fifths of the updates that the finest grid would need everywhere give the same error."""
         report = run("ups/heat/spot_levels.ups").report
         text = re.sub("<AMR>.*</AMR>", "", (ROOT / "ups/heat/spot_levels.ups").read_text(), flags=re.S)
         fine = self.ran(text, BASE + "[128,128,1]")[1]
@@ -245,8 +245,8 @@ class Levels(FolderTest):
         self.assertIn("<adaptive> true needs a <Variable>", refused.err)
 
     def test_a_stream_that_interpolation_would_leave_without_pressure_goes_on(self):
-        """Cold gas that flies apart: on the cells that get finer once it is thin, energy and momentum that are
-        interpolated each by itself leave less than the motion takes."""
+        """Expanding cold gas, refined where it is thin: in new cells, the separately interpolated energy would be less
+        than the kinetic energy."""
         thin = '<Variable name="c.density" value=".9" type="below"/>'
         amr = (f"<max_levels>2</max_levels><min_timestep_interval>4</min_timestep_interval></Regridder><Euler>"
                f"<Refinement_Criteria_Thresholds>{thin}</Refinement_Criteria_Thresholds></Euler>")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The error of the mass projection: below its bound for any particles, at any time; not there unless asked for."""
+"""The error of the mass projection: below its bound for any particles at any time; computed only on request."""
 import pathlib
 import sys
 import unittest
@@ -14,7 +14,7 @@ AT_THE_START = "Time/maxTime=1e-9"
 
 
 def measured(result):
-    """The greatest |E| over its bound, and over the cell volume [kg/m^3]."""
+    """Returns the maximum of |E| relative to its bound, and per cell volume [kg/m^3]."""
     errors = result.report["errors"]
     return errors["mass_projection_over_bound"]["node"]["max"], errors["mass_projection"]["node"]["max"]
 

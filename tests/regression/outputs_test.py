@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a scene saves and measures, and when, leads its run no other way."""
+"""What a scene saves and measures, and when, does not change its results."""
 import pathlib
 import re
 import sys
@@ -16,7 +16,7 @@ CLAMPED = "Time/clamp_time_to_output=true"
 
 class Outputs(unittest.TestCase):
     def run_without(self, scene, tags, *sets):
-        """The report of a scene less what matches `tags`."""
+        """Returns the report of a scene without the tags that match `tags`."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "scene.ups")
             path.write_text(re.sub(tags, "", (ROOT / scene).read_text(), flags=re.S))
@@ -45,7 +45,7 @@ class Outputs(unittest.TestCase):
         self.assertEqual(len([name for name in result.files if name.endswith(".h5")]), 4)
 
     def test_many_outputs_need_no_more_memory_than_few(self):
-        """The lists of outputs, XDMF and VTKHDF, are on the disk."""
+        """The lists of outputs, XDMF and VTKHDF, are kept on disk."""
         for scene in ("ups/mpm/sod.ups", "ups/euler/sod_levels.ups"):
             reports = []
             for outputs in (FEW, MANY):
@@ -58,7 +58,7 @@ class Outputs(unittest.TestCase):
             self.assertLess(many["memory"]["peak"] - few["memory"]["peak"], GROWTH, scene)
 
     def test_the_fingerprint_of_a_scene_without_state_covers_what_is_saved(self):
-        """No step of Poisson's equation needs one before."""
+        """No step of Poisson's equation depends on an earlier one."""
         scene = "ups/poisson/sine.ups"
         found = {run(scene).report["fingerprint"] for _ in range(2)}
         self.assertEqual(len(found), 1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The module particleExtract writes a file for each chosen particle, and a restart leaves no line twice."""
+"""The module particleExtract writes a file for each chosen particle, without duplicate lines after a restart."""
 import pathlib
 import subprocess
 import sys
@@ -17,7 +17,7 @@ MODULE = """<DataAnalysis><Module name="particleExtract"><material>lower</materi
 
 
 def scene(folder, module=MODULE):
-    """Two discs of which the first has a color, with the module."""
+    """Two discs, the first with a colour, and the module."""
     text = (ROOT / "ups/solid/two_discs.ups").read_text().replace("</Uintah_specification>", module)
     text = text.replace("<temperature>12</temperature>", "<temperature>12</temperature><color>1</color>", 1)
     text = text.replace("</DataArchiver>", '<checkpoint timestepInterval="5" cycle="3"/></DataArchiver>')
@@ -49,7 +49,7 @@ class ParticleExtract(unittest.TestCase):
             self.assertGreater(x[1], x[0])
 
     def test_the_first_sample_is_that_of_the_first_step_from_the_start_on(self):
-        """As Uintah's module has it: then one in every 1/samplingFrequency."""
+        """As in Uintah's module: then a sample every 1/samplingFrequency."""
         module = MODULE.replace("1e10", "1e3").replace("<timeStart>0<", "<timeStart>.001<")
         with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as each:
             for place, text in ((folder, module), (each, MODULE)):

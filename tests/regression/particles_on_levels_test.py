@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Particles on the finest of several levels: the bits of the uniform fine grid, and where they cannot be."""
+"""Particles on the finest of several levels: the bits of the uniform fine grid, and refused scenes."""
 import pathlib
 import re
 import sys
@@ -16,7 +16,7 @@ SHORT = ("MaterialProperties/MPM/material[1]/geom_object/velocity=[4000,0,0]", "
 
 
 def changed(folder, *changes):
-    """The scene with texts replaced: [(pattern, text)]; its path."""
+    """Replaces texts of the scene, [(pattern, text)], and returns its path."""
     text = pathlib.Path(SCENE).read_text()
     for pattern, replacement in changes:
         text, count = re.subn(pattern, replacement, text, flags=re.DOTALL)
@@ -33,7 +33,7 @@ class ParticlesOnLevels(unittest.TestCase):
         self.folder = folder.name
 
     def particles(self, scene, name):
-        """Place, velocity and stress of all particles at the end of a short run."""
+        """Returns position, velocity and stress of all particles at the end of a short run."""
         pathlib.Path(self.folder, name).mkdir()
         archive = archive_of(scene, f"{self.folder}/{name}", *SHORT)
         return [columns(archive, label, time=1) for label in ("p.velocity", "p.stress")]
@@ -72,7 +72,7 @@ class ParticlesOnLevels(unittest.TestCase):
         self.assertEqual(run(levels, "Time/max_Timesteps=1").report["particles"], expected)
 
     def still(self, upper, resolution):
-        """The scene with finer cells up to a corner, which stay."""
+        """The scene with static refinement up to a corner."""
         blocks = "<AMR><Regridder><min_patch_size>[[8,8,1]]</min_patch_size></Regridder></AMR>"
         level = (f"</Level>\n<Level><Box label=\"fine\"><lower>[0.1,0.1,0]</lower><upper>{upper}</upper>"
                  f"<resolution>{resolution}</resolution></Box></Level>")

@@ -41,12 +41,12 @@ def numbers(file):
 
 
 def leaves(state, level):
-    """Boxes of a level, as rows of lower and upper corners."""
+    """Returns the boxes of a level as rows of lower and upper corners."""
     return [(row[1:4], row[4:]) for row in state.grid.boxes if row[0] == level]
 
 
 def value_at(state, name, place):
-    """The value of the cell that has a place, from the values on the finest cells."""
+    """Returns the value of the cell that contains a position, from the values on the finest cells."""
     grid = state.grid
     finest = grid.level(grid.levels - 1).spacing
     cell = np.floor((place - grid.lower) / finest + 1e-9).astype(int)

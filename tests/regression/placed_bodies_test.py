@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bodies whose particles have places of their own: mass, momentum, expansion, and a restart on other patches."""
+"""Bodies with given particle positions: mass, momentum, expansion, and a restart on other patches."""
 import math
 import pathlib
 import sys
@@ -53,7 +53,7 @@ class PlacedBodies(unittest.TestCase):
 
     def test_what_cannot_be_is_refused(self):
         for change, sentence in ((BOXES + "affineTransformation_b=[1.1,0.2,0]", "outside the grid"),
-                                 (BOXES + "affineTransformation_A0=[-0.8,0.6,0]", "determinant of A must be positive")):
+                                 (BOXES + "affineTransformation_A0=[-0.8,0.6,0]", "determinant of A is not positive")):
             result = run(SCENE, change)
             self.assertEqual(result.code, 3)
             self.assertIn(sentence, result.err)

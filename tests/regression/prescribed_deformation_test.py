@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bodies that are driven through a deformation: their stress, the same bits on any patches, and files with slips."""
+"""Bodies with a prescribed deformation: stress, same bits on any patches, and files with errors."""
 import math
 import pathlib
 import sys
@@ -21,7 +21,7 @@ def state_at(time, *names, sets=()):
 
 
 def trace_of_stress(strain):
-    """By the crush curve: strain = p3 (exp(p1 (I1 - p0)) - 1) + I1 / (3 B0)."""
+    """Returns the trace of the stress from the crush curve: strain = p3 (exp(p1 (I1 - p0)) - 1) + I1 / (3 B0)."""
     low, high = -2e9, -3e8
     for _ in range(60):
         middle = (low + high) / 2

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs under mpirun: the same bits, the same files, restarts on other ranks, and what a fault on one rank leaves."""
+"""Runs under mpirun: same bits, same files, restarts on other ranks, and the effects of a fault on one rank."""
 import os
 import pathlib
 import re
@@ -24,12 +24,12 @@ OVER = 10  # seconds after which a job that has lost a rank, or its disk, hangs
 
 class Ranks(FolderTest):
     def start(self, here, words, sets):
-        """A job in a process group of its own."""
+        """Starts a job in a process group of its own."""
         return subprocess.Popen(here.command(words, sets), cwd=ROOT, stderr=subprocess.PIPE, text=True,
                                 start_new_session=True)
 
     def ranks_of(self, job):
-        """Process ids of the ranks, once all are there."""
+        """Returns the process ids of the ranks, once all have started."""
         while True:
             found = subprocess.run(["pgrep", "-P", str(job.pid)], capture_output=True, text=True).stdout.split()
             if len(found) == 3:
@@ -37,14 +37,14 @@ class Ranks(FolderTest):
             time.sleep(0.01)
 
     def assert_over(self, job, sentence, times=1):
-        """The job ends, badly, and says why once."""
+        """Asserts that the job ends with an error and reports the reason once."""
         errors = job.communicate(timeout=PATIENCE)[1]
         self.assertNotEqual(job.returncode, 0)
         self.assertEqual(errors.count(sentence), times, errors)
         return errors
 
     def assert_soon(self, folder):
-        """No more than OVER seconds have gone since the job that has just ended wrote its last file."""
+        """Asserts that at most OVER seconds have passed since the finished job wrote its last file."""
         last = max(path.stat().st_mtime for path in folder.rglob("*") if path.is_file())
         self.assertLess(time.time() - last, OVER)
 
@@ -95,7 +95,7 @@ class Ranks(FolderTest):
         self.assertEqual(job.returncode, 3)
 
     def start_each(self, folder, *scenes):
-        """A job whose ranks run a scene each."""
+        """Starts a job in which each rank runs a scene of its own."""
         parts = (f"{SUS} {scene} --quiet --set DataArchiver/outputInterval=0 --output {folder}" for scene in scenes)
         line = "mpirun --oversubscribe -n 1 " + " : -n 1 ".join(parts)
         return subprocess.Popen(line.split(), cwd=ROOT, stderr=subprocess.PIPE, text=True)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Particles that a step turns inside out are removed, and others enter later: counts, and the same bits on any grid."""
+"""Inverted particles are removed, and others are inserted later: counts, and same bits on any grid."""
 import pathlib
 import re
 import sys
@@ -55,7 +55,7 @@ def pellets(folder, lines="0.25 1 0.1 4 0 2 0 0\n0.5 2 3.1 4 0 4 0 0\n"):
 
 
 def thrown(folder, block="[15,7,1]"):
-    """A block at rest, and a particle that a step longer than the stable one throws through a symmetry plane."""
+    """A block at rest, and a particle that too long a step throws through a symmetry plane."""
     bodies = (BODY.format(label="first", low="[2,1,0]", high="[3,2,1]", color=1)
               .replace("<res>[2,2,1]", "<res>[1,1,1]").replace("<velocity>[0,0,0]", "<velocity>[-100,0,0]")
               + BODY.format(label="second", low="[6,1,0]", high=block, color=2))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cut and restart equals uncut: the same bits, the same archive, on any patches."""
+"""An interrupted and restarted run equals an uninterrupted one: same bits and archive, on any patches."""
 import pathlib
 import re
 import sys
@@ -25,7 +25,8 @@ def light_files(uda):
 
 class Restart(FolderTest):
     def assert_same(self, scene, *sets, cut, until=ALL, before="[1,1,1]", after="[1,1,1]"):
-        """A run that is cut after some steps, and goes on from a checkpoint before that, ends like the uncut one."""
+        """Asserts that a run interrupted after some steps and restarted from an earlier checkpoint ends like a whole
+        one."""
         uncut, pieces = self.folder(), self.folder()
         every = EVERY.format(max(1, cut // 3))
         expected = self.well(uncut.run(scene, until, *sets))
@@ -51,7 +52,7 @@ class Restart(FolderTest):
         self.assert_same("ups/mpm/sod_conserving.ups", cut=90, before="[2,1,1]", after="[7,1,1]")
 
     def test_every_scene(self):
-        """Cut between two remaps, where there are any: these come every 4 steps, the checkpoint is of step 6."""
+        """Interrupts between two remaps, if any: these occur every 4 steps, and the checkpoint is of step 6."""
         until = "Time/max_Timesteps=12"
         for scene in sorted(pathlib.Path("ups").glob("*/*.ups")):
             if scene.parent.name == "stability":

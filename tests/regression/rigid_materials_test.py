@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Materials that Uintah's words make rigid: is_rigid and is_force_transmitting_material."""
+"""Materials that Uintah's tags is_rigid and is_force_transmitting_material make rigid."""
 import pathlib
 import sys
 import unittest

@@ -39,7 +39,7 @@ ALL = (VORTICITY + module("minMax", variables=("c.density", "c.velocity", "vorti
 
 
 def numbers(text):
-    """The numbers of the lines that are no comments."""
+    """Returns the numbers of all lines that are not comments."""
     return [[float(word) for word in line.replace("[", " ").replace("]", " ").split()]
             for line in text.splitlines() if not line.startswith("#")]
 
@@ -250,7 +250,7 @@ class Sampling(ModuleTest):
 
 
 class Twice(ModuleTest):
-    """Two modules that write one file, or compute one variable, are refused with the places of both."""
+    """Two modules that write the same file, or compute the same variable, are refused with both places."""
 
     def refused(self, modules, *sentences, save=""):
         run = sus(self.with_modules(VORTEX, modules, save), "--output", self.folder / "out", *SMALL)

@@ -17,7 +17,7 @@ GOLDEN = ROOT / "tests/golden"
 
 
 def schedules():
-    """Name of the golden file -> the schedule that sus prints now."""
+    """Returns the current schedule of sus by the name of its golden file."""
     for scene in sorted((ROOT / "ups").rglob("*.ups")):
         if scene.parent.name == "stability":
             continue

@@ -23,7 +23,7 @@ def steps(count):
 
 
 def gas(faces, amr="", cells="[12,12,12]", velocity="[0.1,0,0]"):
-    """A gas in a box of a metre, open where there is no face."""
+    """A gas in a box of 1 m, open wherever no side is given."""
     return f"""<Uintah_specification>
   <Meta><title>sides</title></Meta>
   <SimulationComponent type="euler"/>
@@ -105,7 +105,7 @@ class Sides(SceneTest):
         self.assertEqual(at[min(x for x, _ in at), max(y for _, y in at)] > 1.5, False, "hot away from the jet")
 
     def test_a_wave_that_a_formula_lets_in(self):
-        """An entropy wave that goes with the gas: smooth, so of second order."""
+        """An entropy wave carried by the gas: smooth, hence of second order."""
         wave = "1 + 0.2*sin(2*pi*(x - t))"
         faces = "".join(f'<Face side="{side}">{MIRROR}</Face>' for side in ("y-", "y+", "z-", "z+"))
         inlet = inflow('side="x-"', wave, "[1,0,0]").replace(
@@ -135,7 +135,7 @@ class Sides(SceneTest):
                          self.print_of(jet, *small))
 
     def assert_takes_parts(self, scene, label, *changes):
-        """In a plane, where the scene has no condition on x+ of its own."""
+        """In two dimensions, where the scene has no condition of its own on x+."""
         text = re.sub("<DataAnalysis>.*</DataAnalysis>", "", (ROOT / scene).read_text(), flags=re.DOTALL)
         for before, after in changes:
             self.assertIn(before, text)

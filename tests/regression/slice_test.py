@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The module slice: the values of the full outputs on its planes, the same bytes on any layout and after a restart."""
+"""The module slice: same values as the full outputs on its planes, same bytes on any layout and after a restart."""
 import pathlib
 import subprocess
 import sys
@@ -17,7 +17,7 @@ LABELS = "<label>c.density</label><label>c.velocity</label>"
 
 class Slice(ModuleTest):
     def scene(self, of, tags):
-        """A copy of a scene with the module."""
+        """Returns a copy of a scene with the module."""
         return self.with_modules(of, f'<Module name="slice">{tags}</Module>')
 
     def files_of(self, archive):

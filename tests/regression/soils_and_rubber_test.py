@@ -64,7 +64,7 @@ def scene_of(model, folder):
 
 class SoilsAndRubber(unittest.TestCase):
     def on_all_layouts(self, model, *changes):
-        """Checks that all runs of a scene, with the changes, give the same bits; returns its fingerprint."""
+        """Asserts that all runs of a changed scene give the same bits; returns its fingerprint."""
         with tempfile.TemporaryDirectory() as folder:
             scene = scene_of(model, folder)
             expected = run(scene, *changes)

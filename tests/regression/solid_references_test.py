@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Solids against what mechanics says about their scenes."""
+"""Solids compared with solutions of mechanics for their scenes."""
 import math
 import pathlib
 import sys
@@ -14,7 +14,7 @@ PLAIN_SHAPES = ("linear", "gimp", "3rdorderBS", "4thorderBS")
 
 
 def observed_order(scene, coarse, fine, *sets):
-    """The order of the displacement's mean error between two numbers of cells."""
+    """Returns the order of the displacement's mean error between two numbers of cells."""
     errors = [run(scene, f"Grid/Level/Box/resolution=[{n},{n},1]",
                   *sets).report["errors"]["displacement"]["particle"]["L1"]
               for n in (coarse, fine)]
@@ -39,7 +39,7 @@ class Bar(unittest.TestCase):
 
 
 def curvature(times, values):
-    """The second derivative of the parabola that fits best."""
+    """Returns the second derivative of the best-fitting parabola."""
     mean, half = sum(times) / len(times), max(times) - min(times)
     u = [(t - mean) / half for t in times]
     rows = [[sum(x**(i + j) for x in u) for j in range(3)] + [sum(v * x**i for x, v in zip(u, values))]
@@ -136,12 +136,12 @@ class Bodies(unittest.TestCase):
 
 
 def outermost(places):
-    """The side of the last of particles in a row, half the way to the one before it beyond."""
+    """Returns the outer face of the last particle in a row, half a spacing beyond its centre."""
     return places[-1] + (places[-1] - places[-2]) / 2
 
 
 def elastica(weight, length, stiffness, until):
-    """Where the point `until` of a heavy elastic line is that is clamped level: x, and how far below."""
+    """Returns x and the deflection of the point `until` of a heavy elastic line that is clamped horizontally."""
     steps = 2000
     h = length / steps
 
@@ -177,9 +177,9 @@ class Cylinder(unittest.TestCase):
 
 
 class Tube(unittest.TestCase):
-    """Of rubber with a Poisson's ratio of .4999."""
+    """A tube of rubber with a Poisson's ratio of .4999."""
     def widening(self, *sets):
-        """Of the innermost particles, over Lame's."""
+        """Returns the widening of the innermost particles, relative to Lame's solution."""
         state = last_state("ups/solid/rubber_tube.ups", "p.x", "p.displacement", sets=sets)
         u, r = min((u, x - u) for x, u in zip(state["x [m]"], state["p.displacement.x [m]"]) if x < .52)
         shear, bulk, p, a, b = 1e6, 5e9, 500 * math.pi, .5, 1
@@ -204,7 +204,7 @@ class Tube(unittest.TestCase):
 
 
 class Conservation(unittest.TestCase):
-    """Of a disc on which nothing acts. Round-off: some 1e3 steps of sums over 1e3 particles."""
+    """A free disc. Round-off: about 1e3 steps of sums over 1e3 particles."""
     SCENE = "ups/solid/spinning_disc.ups"
 
     def drift(self, name, *sets):

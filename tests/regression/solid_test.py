@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Solids against what Uintah of July 2026 computes for the same bodies, and the same bits on any patches."""
+"""Solids compared with results of Uintah of July 2026 for the same bodies; same bits on any patches."""
 import pathlib
 import sys
 import unittest
@@ -16,7 +16,7 @@ TAYLOR = "ups/solid/taylor_bar.ups"
 
 
 def fields_of(scene, *names, until):
-    """Column -> its values at a time."""
+    """Returns the values at a time by column."""
     return last_state(scene, *names, sets=(f"Time/maxTime={until}", "DataArchiver/outputInterval=1",
                                            "DataArchiver/outputLastTimestep=true"))
 

@@ -28,7 +28,7 @@ AMR = re.compile(r"  <AMR>.*?</AMR>\n", re.DOTALL)
 
 
 def finer(scene, times):
-    """Cells of all levels over `times` the width; of HEAT, the steps are as much shorter."""
+    """Refines the cells of all levels by `times`; for HEAT the time steps shrink by the same factor."""
     counts = {POISSON: ((32, 32), (32, 40), (32, 32)), HEAT: ((32, 32),) * 3}[scene]
     sets = [BOX.format(level) + f"resolution=[{x * times},{y * times},1]" for level, (x, y) in enumerate(counts, 1)]
     if scene == POISSON:
@@ -37,7 +37,7 @@ def finer(scene, times):
 
 
 def without_levels(scene):
-    """Its text, with the coarsest Level alone and without <AMR>."""
+    """Returns the text of a scene with only the coarsest Level and without <AMR>."""
     return AMR.sub("", FURTHER.sub("", (ROOT / scene).read_text()))
 
 
@@ -55,7 +55,7 @@ FADING = adaptive(HEAT, "Heat", '<Variable name="c.temperature" type="gradient" 
 
 class SolvesOnLevels(FolderTest):
     def written(self, text, name="solve.ups"):
-        """A file with the text of a scene."""
+        """Writes the text of a scene into a file."""
         path = self.folder().path / name
         path.write_text(text)
         return path
@@ -65,7 +65,7 @@ class SolvesOnLevels(FolderTest):
         return next(iter(errors.values()))["cell"]["max"]
 
     def iterations(self, scene, *sets):
-        """Of the last solve."""
+        """Returns the number of iterations of the last solve."""
         here = self.folder()
         self.well(here.run(scene, *sets))
         return int((here.uda / "KrylovIterations.dat").read_text().split()[-1])

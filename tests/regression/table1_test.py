@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The paper's Table 1, the smooth wave, what is conserved, and what redistribution cures."""
+"""The paper's Table 1, the smooth wave, conservation, and the effect of redistribution."""
 import pathlib
 import sys
 import unittest

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Words of Uintah's scenes that stand for what is here under another word, or for nothing: such scenes run
+"""Tags of Uintah's scenes that have another name here, or no effect: such scenes run
 unchanged."""
 import pathlib
 import sys

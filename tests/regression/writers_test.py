@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Ranks that write together: the same bytes by any ranks and writers, little memory on each, and one sentence where one
-writer cannot write."""
+"""Ranks that write together: same bytes with any number of ranks and writers, little memory per rank, and one message
+if a writer cannot write."""
 import os
 import pathlib
 import shutil
@@ -52,7 +52,7 @@ class Writers(FolderTest):
 
     @staticmethod
     def packed(report):
-        """Bytes of the values of outputs without and with compression; none where it is not asked for."""
+        """Returns the bytes of the outputs' values without and with compression; empty if none is requested."""
         return [report["compression"][key] for key in ("bytes", "packed")] if "compression" in report else []
 
     def test_the_report_says_what_compression_took_and_saved(self):
@@ -103,7 +103,7 @@ class Writers(FolderTest):
             self.assertEqual((code, errors, report["fingerprint"]), (0, "", expected["fingerprint"]))
 
     def bytes_read(self, here, words, sets):
-        """Bytes that calls of a job's ranks have read, as the system counts them."""
+        """Returns the bytes that read calls of a job's ranks have returned, as the system counts them."""
         counted = ("sh", "-c", f'"$@" || exit; grep rchar /proc/$$/io > {here.path}/read.${{OMPI_COMM_WORLD_RANK:-0}}',
                    "sh")
         job = self.start(here, words, sets, counted)
@@ -162,15 +162,15 @@ class Writers(FolderTest):
         shutil.copytree(saved, here.uda.resolve())
 
     def start(self, here, words, sets, ranks_run=(), **environment):
-        """A job whose ranks are started by `ranks_run`, words of a command that starts them."""
+        """Starts a job through `ranks_run`, the words of a command that starts the ranks."""
         command = here.command(words, sets)
         at = command.index(SUS)
         return subprocess.Popen([*command[:at], *ranks_run, *command[at:]], cwd=ROOT, stderr=subprocess.PIPE, text=True,
                                 env={**os.environ, **environment})
 
     def most_memory(self, here, words, sets, ranks_run=()):
-        """The most address space of a rank of a job that ends well, and the most that it had in memory, bytes, as the
-        system counts them."""
+        """Returns the largest address space and the largest resident memory [bytes] of a rank of a successful job, as
+        the system counts them."""
         job, most = self.start(here, words, sets, ranks_run), {"VmPeak": 0, "VmHWM": 0}
         while job.poll() is None:
             for pid in subprocess.run(["pgrep", "-P", str(job.pid)], capture_output=True, text=True).stdout.split():
@@ -208,7 +208,7 @@ class Writers(FolderTest):
         self.assertLess(self.most_memory(here, again, ("Time/max_Timesteps=4",))[1], both + LITTLE)
 
     def end_of(self, here, sets, rank, limit, *words):
-        """A job in which one rank may write no further than so many bytes into a file: what it says."""
+        """Returns the outcome of a job in which one rank may write only a limited number of bytes into a file."""
         bound = f'if [ "$OMPI_COMM_WORLD_RANK" = {rank} ]; then ulimit -f {limit // 512}; fi; exec "$@"'
         small = ("sh", "-c", bound, "sh")
         # Messages through sockets: those in memory need files, too.

@@ -16,7 +16,7 @@ constexpr data::ReductionLabel<Norm> label{"Error.density", "kg/m^3", "error"};
 const MeasuredError error{"density", "cell", &label, {"L1", "L2", "max", "relative"}};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// An error of so much where the exact value has that magnitude.
+/// Returns the norm of an error `e` where the exact value has the given magnitude.
 Norm normOf(double e, double magnitude) {
   Norm norm;
   norm.add(e, magnitude);

@@ -8,7 +8,7 @@ namespace tushar::scene {
 
 namespace {
 
-/// Of a cube of `width`³ patches of 4³ cells, eight patches to a rank.
+/// Returns the dry run of a cube of `width`³ patches of 4³ cells, with eight patches per rank.
 DryRun ofCube(const std::string& scene, int width) {
   const std::string cells = std::to_string(4 * width), patches = std::to_string(width);
   return dryRun(scene,

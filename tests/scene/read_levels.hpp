@@ -10,7 +10,7 @@ namespace tushar::scene {
 using simulation::Criterion;
 using Strings = std::vector<std::string>;
 
-/// What the sections Grid and AMR say.
+/// The result of reading the sections Grid and AMR.
 struct Read {
   grid::Domain domain;
   AmrSettings amr;
@@ -46,7 +46,7 @@ inline std::string box(const std::string& lower, const std::string& upper, const
 }
 inline std::string level(const std::string& boxes) { return "<Level>" + boxes + "</Level>"; }
 
-/// A square of 32² cells, without extent along z.
+/// A square of 32² cells without extent along z.
 inline const std::string square = level(box("0,0,0", "2,1,0", "64,32,1"));
 inline const std::string halved = level(box(".5,.25,0", "1,.5,0", "32,16,1"));
 

@@ -14,7 +14,7 @@ namespace tushar::scene {
 
 namespace {
 
-/// A scene of `ups/` with other text behind the only place where `before` stands; gives its path.
+/// Writes a scene of `ups/` with text inserted behind the only occurrence of `before`; returns its path.
 std::string changed(const std::string& scene, const std::string& before, const std::string& added) {
   std::ostringstream text;
   text << std::ifstream(scene).rdbuf();
@@ -39,7 +39,7 @@ std::string withLevel(const std::string& scene) {
                  "</Level>");
 }
 
-/// What is wrong with a scene, line by line.
+/// Returns the problems of a scene, one per line.
 std::string problemsOf(const std::string& path, const std::vector<std::string>& overrides = {}) {
   std::string text;
   try {

@@ -24,7 +24,7 @@ using simulation::Simulation;
 
 namespace {
 
-/// An archive with checkpoints of steps 4 and 6.
+/// Creates an archive with checkpoints of steps 4 and 6.
 fs::path archiveWithTwo() {
   Problem problem = readScene("ups/mpm/sod.ups",
                               {"Time/max_Timesteps=6", "DataArchiver/checkpoint/@timestepInterval=4"}, catalogue());
@@ -42,7 +42,7 @@ std::string read(const fs::path& file) {
 
 void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
 
-/// Changes the bits of `mask` in one byte of a file.
+/// Flips the bits of `mask` in one byte of a file.
 void flip(const fs::path& file, std::size_t at, int mask) {
   std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(at));

@@ -20,7 +20,7 @@ AnalysisKind analysis(const std::string& name) {
   return kind;
 }
 
-/// A module that says how often it was loaded.
+/// A module that counts how often it is loaded.
 std::function<Catalogue()> counting(int& loads, const Catalogue& brought) {
   return [&loads, brought] {
     ++loads;

@@ -8,15 +8,15 @@ namespace {
 
 struct Moment {
   int step;
-  double time, wallTime;  ///< s
+  double time, wallTime;  ///< time and wall time [s]
 };
 
-/// A checkpoint is not yet due at `before`, and due at `after`.
+/// Expects that a checkpoint is not yet due at `before`, but due at `after`.
 void expectDueBetween(const CheckpointControl& control, const Moment& before, const Moment& after) {
   EXPECT_FALSE(control.isDue(before.step, before.time, before.wallTime));
   EXPECT_TRUE(control.isDue(after.step, after.time, after.wallTime));
 }
-/// The same after a checkpoint at `last`.
+/// As above, after a checkpoint at `last`.
 void expectNextBetween(CheckpointControl& control, const Moment& last, const Moment& before, const Moment& after) {
   control.note(last.time, last.wallTime);
   expectDueBetween(control, before, after);

@@ -16,7 +16,7 @@ Problem withCheckpoints(int everySteps) {
   return problem;
 }
 
-/// Counts how often it is asked to complete its files.
+/// Counts the requests to complete its files.
 class Flushed : public Analysis {
  public:
   explicit Flushed(int& count) : count_(&count) {}

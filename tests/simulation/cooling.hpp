@@ -13,7 +13,7 @@ namespace tushar::test {
 inline constexpr CellLabel<double> heat{"c.heat", "J", "heat of a cell"};
 inline constexpr ReductionLabel<Sum> totalHeat{"TotalEnergy", "J", "heat of all cells"};
 
-/// Cells of 1 J at the start, of which each step leaves half.
+/// A component whose cells start with 1 J and lose half of it in each step.
 class Cooling : public Component {
  public:
   void scheduleInitialize(TaskList& tasks) const override {
@@ -46,7 +46,7 @@ class Cooling : public Component {
   }
 };
 
-/// Eight cells on two patches that cool down until 1 s; nothing is saved.
+/// Eight cells on two patches that cool down until 1 s, without outputs.
 inline simulation::Problem cooling() {
   simulation::Problem problem;
   problem.scenePath = "cooling.ups";
@@ -59,7 +59,7 @@ inline simulation::Problem cooling() {
   return problem;
 }
 
-/// A run without a time loop: a test initialises it and takes each step.
+/// A run without a time loop: the test initialises it and calls each step.
 class CoolingRun : public simulation::RunState {
  public:
   explicit CoolingRun(simulation::Problem given = cooling())

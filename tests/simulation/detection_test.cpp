@@ -22,14 +22,14 @@ using scene::readScene;
 
 namespace {
 
-/// A value that goes wrong.
+/// A wrong value planted into a run.
 struct Planted {
   double value;
   ParticleId id;
-  double from;  ///< s
+  double from;  ///< from [s]
 };
 
-/// A component with one task more: it spoils the internal energy of one particle.
+/// A component with an additional task that spoils the internal energy of one particle.
 class Spoiled : public Component {
  public:
   Spoiled(std::unique_ptr<Component> sound, const Planted& planted) : sound_(std::move(sound)), planted_(planted) {}
@@ -80,7 +80,7 @@ Report runSpoiled(const Planted& planted, int patches) {
   return run(std::move(problem));
 }
 
-/// What is said, but for the patch and where the state is saved.
+/// Returns the message without the patch and the path of the saved state.
 std::string sentenceOf(const Report& report) {
   const std::string text = std::regex_replace(report.failure, std::regex("patch \\d+"), "patch *");
   return text.substr(0, text.find(", is saved"));

@@ -40,7 +40,7 @@ grid::Domain strip(int levels) {
   return domain;
 }
 
-/// What is wrong with the tasks on a grid of some levels, line by line.
+/// Returns the problems of the tasks on a grid of several levels, one per line.
 std::string problemsOf(const TaskList& list, int levels = 2) {
   std::string text;
   for (const InputProblem& problem : problemsOnLevels(list.tasks(), grid::Grid(strip(levels)), {"a.ups", 7, 3}))
@@ -103,7 +103,7 @@ namespace {
 void limit(const Patch&, CellView<const double>, Minimum&) {}
 void sumUp(const Patch&, CellView<const double>, Sum&) {}
 
-/// What keeps tasks from smaller steps on finer levels.
+/// Returns the reason that tasks cannot use smaller steps on finer levels.
 std::string problemOfSteps(const TaskList& list) {
   const auto problem = problemOfSmallerSteps(list.tasks(), {"a.ups", 7, 3});
   return problem ? problem->text() : "";
@@ -149,7 +149,7 @@ TEST(LevelLimits, OneSentenceSaysWhichTaskRulesSmallerStepsOutAndHowManyOthers) 
 
 namespace {
 
-/// Reads its cells from far away.
+/// A component that reads distant cells.
 class FarCooling : public test::Cooling {
  public:
   void scheduleTimeAdvance(TaskList& tasks) const override {

@@ -18,7 +18,7 @@ using scene::readScene;
 
 namespace {
 
-/// Runs Sod's tube for some steps, with or without anything saved; the folder it may write to.
+/// Runs Sod's tube for some steps with or without outputs; returns the folder for its files.
 std::string runSod(bool saves, const std::vector<std::string>& overrides = {}) {
   std::vector<std::string> all{"Time/max_Timesteps=3"};
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -32,7 +32,7 @@ std::string runSod(bool saves, const std::vector<std::string>& overrides = {}) {
   return options.outputFolder;
 }
 
-/// Whether HDF5 has been started in this process, by its own flag.
+/// Whether HDF5 has been initialised in this process, from its own flag.
 bool isHdf5Started() {
   const auto* started = static_cast<const bool*>(dlsym(RTLD_DEFAULT, "H5_libinit_g"));
   EXPECT_NE(started, nullptr) << "this HDF5 does not show its flag";

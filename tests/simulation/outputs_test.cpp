@@ -15,7 +15,7 @@ namespace {
 
 inline constexpr CellLabel<double> warmth{"c.warmth", "J", "heat of a cell, as a diagnostic"};
 
-/// Looks at each third step at a variable that its task computes, which counts how often the first patch had it.
+/// Looks every third step at a variable of its task; counts how often the first patch had it.
 class Glance : public Analysis {
  public:
   explicit Glance(int* computed) : computed_(computed) {}

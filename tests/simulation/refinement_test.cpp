@@ -23,10 +23,10 @@ double of(Indicator indicator, const std::vector<Neighbours>& axes, const std::v
   return indicatorOf(indicator, axes, spacing, components);
 }
 
-/// The indicator of the middle one of three numbers in a row, half a metre apart.
+/// Returns the indicator for the middle of three values in a row, half a metre apart.
 double inRow(Indicator indicator, double a, double b, double c) { return of(indicator, {{&a, &b, &c}}, {0.5}, 1); }
 
-/// A row of 4 blocks of 8 cells, up to 3 levels, without regions.
+/// A row of 4 blocks of 8 cells with up to 3 levels, without prescribed regions.
 grid::Domain row(bool isPeriodic = false) {
   grid::Domain domain;
   domain.upper = {1, 0, 0};
@@ -113,7 +113,7 @@ TEST(MarkedBlocks, StayWhereTheyAreMarkedAndBecomeCoarserOneLevelAtATime) {
 
 namespace {
 
-/// What a marked cell makes of a grid, every leaf of which is one level finer at most.
+/// Returns the levels of the leaves after one cell is marked, and checks that none is more than one level finer.
 std::vector<int> refinedOnce(const grid::Grid& grid, int interval, int level, int cell) {
   MarkedBlocks marked(grid, interval, 1);
   marked.add(grid.level(level), {{cell, 0, 0}}, 2);
@@ -142,7 +142,7 @@ TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnceHoweverFarSignalsReach) {
 
 namespace {
 
-/// 4 x 3 x 2 blocks of 8 cells in the first axes, up to 3 levels, some of them refined by chance.
+/// A grid of 4 x 3 x 2 blocks of 8 cells along its axes, up to 3 levels, with random refinement.
 std::unique_ptr<grid::Grid> refinedByChance(int dimension, bool isPeriodic, std::mt19937& random) {
   grid::Domain domain;
   const std::array<int, 3> cells{32, 24, 16};
@@ -228,7 +228,7 @@ TEST(Regridding, HasGhostsOfAllCellsThatOutliveAStep) {
 
 namespace {
 
-/// Cells that cool down, of which it wants a finer one on the left, and fills new cells with 7 J.
+/// Cooling cells that mark one on the left for refinement, and fill new cells with 7 J.
 class MarkingItself : public test::Cooling {
  public:
   void scheduleErrorEstimate(TaskList& tasks) const override {
@@ -251,7 +251,7 @@ class MarkingItself : public test::Cooling {
   }
 };
 
-/// The heat of all cells, along the curve.
+/// Returns the heat of all cells in the order of the curve.
 std::vector<double> heatOf(RunState& run) {
   std::vector<double> all;
   for (const grid::Patch& patch : run.problem.grid->patches()) {
@@ -298,7 +298,7 @@ class WithNodes : public test::Cooling {
   }
 };
 
-/// Looks at nodes in a window.
+/// An analysis that looks at nodes in a window.
 class NodesOfAWindow : public Analysis {
  public:
   void schedule(tasks::TaskList&) const override {}

@@ -12,7 +12,7 @@
 
 namespace tushar::simulation {
 
-/// A checkpoint of a step, with what its manifest says before its own hash.
+/// Writes a checkpoint of a step; `manifest` is the content of that file before its own hash.
 void writeCheckpoint(const std::filesystem::path& archive, int step, const std::string& manifest) {
   const output::CheckpointStore store(archive, 9);
   store.write(step, [](const std::filesystem::path&) { return std::vector<output::FilePart>(); });
@@ -20,7 +20,7 @@ void writeCheckpoint(const std::filesystem::path& archive, int step, const std::
       << manifest << fmt::format("{:016x} manifest\n", XXH64(manifest.data(), manifest.size(), 0));
 }
 
-/// The one before it would be taken otherwise, and the newer one overwritten.
+/// Otherwise the older checkpoint would be used, and the newer one overwritten.
 TEST(Restart, RefusesACheckpointOfANewerVersionThoughAnOlderOneIsWhole) {
   const output::TemporaryFolder here;
   writeCheckpoint(here, 1, "format 3\n");

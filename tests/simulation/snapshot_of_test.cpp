@@ -9,7 +9,7 @@ namespace tushar::simulation {
 
 namespace {
 
-/// Samples one variable everywhere.
+/// An analysis that samples one variable everywhere.
 class Asks : public Analysis {
  public:
   explicit Asks(SaveRequest request) : request_(std::move(request)) {}
@@ -21,7 +21,7 @@ class Asks : public Analysis {
   SaveRequest request_;
 };
 
-/// Two discs at the start.
+/// Two discs at the start of a run.
 class Discs : public RunState {
  public:
   Discs()
@@ -30,7 +30,7 @@ class Discs : public RunState {
     scheduler.run(phases.initialize, {0, 0});
     scheduler.commit(phases.initialize);
   }
-  /// How many particles of each material a module gets that asks for a variable.
+  /// Returns the number of particles of each material that a module which samples a variable receives.
   std::vector<std::size_t> countsFor(const std::string& label, const std::string& material) {
     std::vector<std::size_t> counts;
     for (const output::ParticleBlock& block : partsOf(*this, Asks({label, material, {}, {}})).front().particles)

@@ -19,7 +19,7 @@ TimeSettings until(double maxTime) {
   return settings;
 }
 
-/// The sentence of the NumericalError that `work` throws; empty if it throws none.
+/// Returns the message of the NumericalError that `work` throws; empty if it throws none.
 template <class Work>
 std::string whatOf(Work&& work) {
   try {

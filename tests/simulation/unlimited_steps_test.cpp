@@ -12,7 +12,7 @@ namespace tushar::simulation {
 
 namespace {
 
-/// Another component without its limit.
+/// A component without its time step limit.
 class Unlimited : public Component {
  public:
   explicit Unlimited(std::unique_ptr<Component> limited) : limited_(std::move(limited)) {}

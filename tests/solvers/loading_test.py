@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""PETSc is loaded by scenes with a global solve, and by no other."""
+"""PETSc is loaded for scenes with a global solve, and only for these."""
 import os
 import pathlib
 import subprocess
@@ -12,7 +12,7 @@ from sus import ROOT, SUS, run
 
 
 def libraries(scene, *options):
-    """What the dynamic linker loads in the course of a run, by its own record."""
+    """Returns the libraries that the dynamic linker loads during a run, from the linker's own log."""
     with tempfile.TemporaryDirectory() as folder:
         log = pathlib.Path(folder) / "linker"
         environment = dict(os.environ, LD_DEBUG="files", LD_DEBUG_OUTPUT=str(log))

@@ -12,14 +12,14 @@ namespace tushar::solvers {
 
 namespace {
 
-/// A grid of 6 x 4 cells in 8 patches, periodic along x, as one of some ranks sees it.
+/// A grid of 6 x 4 cells in 8 patches, periodic along x, as one of several ranks sees it.
 std::unique_ptr<grid::Grid> sharedGrid(int rank, int ranks) {
   grid::Domain domain = test::domain({{6, 4, 1}}, {{4, 2, 1}});
   domain.periodic[0] = 1;
   return std::make_unique<grid::Grid>(domain, grid::Share{rank, ranks});
 }
 
-/// A square of 8 x 8 cells in blocks of 4, periodic along x, whose lower left block is refined.
+/// A square of 8 x 8 cells in blocks of 4, periodic along x, with the lower left block refined.
 std::unique_ptr<grid::Grid> refinedGrid(int rank, int ranks, int blocksPerPatch) {
   grid::Domain domain = test::domain({{8, 8, 1}});
   domain.periodic[0] = 1;

@@ -18,7 +18,7 @@ Unknowns row(int count) {
   return unknowns;
 }
 
-/// -x'' of a row of values, 0 beyond its ends; with `closed`, nothing flows out of them.
+/// -x'' for a row of values with x = 0 beyond its ends, or without flux through them if `closed`.
 void laplacian(Matrix& matrix, int count, bool closed) {
   for (int k = 0; k < count; ++k) {
     const bool first = k == 0, last = k == count - 1;
@@ -28,7 +28,7 @@ void laplacian(Matrix& matrix, int count, bool closed) {
   }
 }
 
-/// u_k² = 2 + k for each of three unknowns; u < 0 has no residual.
+/// u_k² = 2 + k for each of three unknowns; the residual is undefined for u < 0.
 class Roots : public NonlinearProblem {
  public:
   bool residual(std::span<const double> u, std::span<double> r) override {
@@ -44,7 +44,7 @@ class Roots : public NonlinearProblem {
   std::vector<double> u_;
 };
 
-/// ln u = 0; u <= 0 has no residual. Newton's step from u is -u ln u, which from 10 leads to -13.
+/// ln u = 0, undefined for u <= 0. Newton's step from u is -u ln u, which leads from 10 to -13.
 class Logarithm : public NonlinearProblem {
  public:
   bool residual(std::span<const double> u, std::span<double> r) override {
@@ -61,7 +61,7 @@ class Logarithm : public NonlinearProblem {
   double u_ = 0;
 };
 
-/// arctan(10 u) = 0. Newton's step from u = 1 leads to -14, and from there further away.
+/// arctan(10 u) = 0. Newton's step leads from u = 1 to -14, and from there further away.
 class Plateau : public NonlinearProblem {
  public:
   bool residual(std::span<const double> u, std::span<double> r) override {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""C++ is written as clang-format 14 writes it (tools/format does), and no line of C++ or Python is too long."""
+"""C++ is formatted as clang-format 14 does (tools/format), and no line of C++ or Python is too long."""
 import re
 import shutil
 import subprocess
@@ -11,7 +11,7 @@ LONGEST_LINE = 120  # characters, as in .clang-format
 
 
 def clang_format_version():
-    """Major version of the clang-format that is installed; None without one."""
+    """Returns the major version of the installed clang-format; None without one."""
     if not shutil.which("clang-format"):
         return None
     said = subprocess.run(["clang-format", "--version"], capture_output=True, text=True).stdout

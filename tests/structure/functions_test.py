@@ -9,7 +9,7 @@ LONGEST_FUNCTION = 50  # lines of code, without blank ones and comments
 
 
 def lengths():
-    """(lines, place) of each function, lambdas too, of core, components and tools, longest first."""
+    """Returns (lines, place) of each function, including lambdas, of core, components and tools, longest first."""
     code, rows = {}, []
     for function in tree.functions("f"):
         if "end" in function:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Pages (*.md) link to what exists: files, headings, and the paths and scenes that they name."""
+"""Links of Markdown pages lead to existing files and headings; paths and scenes named in them exist."""
 import pathlib
 import re
 import subprocess
@@ -19,7 +19,7 @@ EXAMPLES = {"NAME", "SCENE.ups", "wave", "wave.ups"}
 
 
 def pages():
-    """Every page that belongs to the project, with its text."""
+    """Returns every page of the project with its text."""
     listed = subprocess.run(["git", "ls-files", "-z", "*.md"], cwd=ROOT, capture_output=True, text=True)
     if listed.returncode == 0:
         files = [ROOT / name for name in listed.stdout.split("\0") if name]
@@ -29,13 +29,13 @@ def pages():
 
 
 def anchors(text):
-    """The anchors of a page's headings, as GitHub makes them: `Two commands` -> two-commands."""
+    """Returns the anchors of a page's headings as GitHub generates them: `Two commands` -> two-commands."""
     headings = HEADING.findall(CODE_BLOCK.sub("", text))
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
 def broken_links(file, text):
-    """Links of a page whose file or heading does not exist."""
+    """Returns the links of a page whose file or heading does not exist."""
     for target in LINK.findall(CODE.sub("code", CODE_BLOCK.sub("", text))):
         if re.match(r"[a-z]+:", target):
             continue
@@ -48,7 +48,7 @@ def broken_links(file, text):
 
 
 def stale_paths(file, text):
-    """Paths that a page names, from the root of the project or from its own folder, and that do not exist."""
+    """Returns paths on a page that exist neither below the project's root nor below the page's folder."""
     for path in PATH.findall(text):
         if not EXAMPLES & set(path.split("/")) and not (ROOT / path).exists():
             yield path
@@ -72,7 +72,7 @@ class Pages(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    """The check itself finds what is wrong."""
+    """Tests of the check itself."""
     HERE = ROOT / "README.md"
 
     def test_a_link_to_a_missing_file_or_heading_is_found(self):

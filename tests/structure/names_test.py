@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Names in comments exist.
+"""Names in comments exist in the code.
 
 A name is a word with a capital inside (`ParticleSet`, `firstPatch`), `a::b` or `a()`, in backticks or not. It must
 stand in the code: C++ outside of comments, Python, CMake or a scene. Not names: what a line with a year cites
@@ -26,7 +26,7 @@ def words_of_the_code():
 
 
 def blocks(text):
-    """(line, text) for each run of comments on lines that follow one another."""
+    """Returns (line, text) for each run of comments on consecutive lines."""
     found, last = [], None
     for line, comment in tree.comments(text):
         if last is not None and line == last + 1:

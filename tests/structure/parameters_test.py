@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""No function of core, components and tools takes more than 10 parameters: larger sets of values are named together."""
+"""No function of core, components and tools has more than 10 parameters: larger sets are grouped in a struct."""
 import re
 import unittest
 
@@ -9,7 +9,7 @@ MOST_PARAMETERS = 10
 
 
 def parameters(signature):
-    """How many there are in `(int a, std::map<int, int> b = {1, 2})...`: two."""
+    """Returns the number of parameters in `(int a, std::map<int, int> b = {1, 2})...`: two."""
     inner = signature[signature.index("(") + 1:]
     depth, count, last = 0, 1, ""
     for place, letter in enumerate(inner):
@@ -28,7 +28,7 @@ def parameters(signature):
 
 
 def longest_lists():
-    """(parameters, place) of each function, lambdas and constructors too, that takes too many."""
+    """Returns (parameters, place) of each function with too many, including lambdas and constructors."""
     found = {}
     for function in tree.functions("fp"):
         count = parameters(function.get("signature", "()"))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The folders of core and components are rooms: a file has the namespace of its room, and includes run one way."""
+"""Folders of core and components are rooms: a file is in its room's namespace, and includes form no circles."""
 import re
 import unittest
 
@@ -16,7 +16,7 @@ NAMED = {"components/mpm/gas": "tushar::mpm::gas",
 
 
 def namespace_of(folder):
-    """`tushar` for core, core/base and components; `tushar::X` for core/X and components/X; below, see NAMED."""
+    """`tushar` for core, core/base and components; `tushar::X` for core/X and components/X; deeper ones: see NAMED."""
     if folder in ("core", "core/base", "components"):
         return "tushar"
     if folder in NAMED:
@@ -26,7 +26,7 @@ def namespace_of(folder):
 
 
 def parting(one, other):
-    """Where the folders of two files part: the folders there side by side; None where one lies in the other."""
+    """Returns the two folders at which the paths of two files diverge; None where one contains the other."""
     a, b = tree.folder_of(one).split("/"), tree.folder_of(other).split("/")
     shared = 0
     while shared < min(len(a), len(b)) and a[shared] == b[shared]:
@@ -37,7 +37,7 @@ def parting(one, other):
 
 
 def circle(graph):
-    """Files that include one another in a circle, in that order; empty where there is none."""
+    """Returns files that include one another in a circle, in that order; empty if there are none."""
     done, path = set(), []
 
     def visit(file):

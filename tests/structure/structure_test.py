@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The folders keep their order: what includes what, and who may see MPI, HDF5, PETSc and TBB."""
+"""The layers of folders: which may include which, and which may see MPI, HDF5, PETSc and TBB."""
 import pathlib
 import re
 import subprocess
@@ -22,7 +22,7 @@ def sources():
 
 
 def layer(path):
-    """Place in ORDER of the folder that a file belongs to."""
+    """Returns the index in ORDER of the folder that a file belongs to."""
     matching = [folder for folder in ORDER if path.startswith(folder + "/")]
     return ORDER.index(max(matching, key=len))
 

@@ -53,7 +53,7 @@ class Tidy(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    """The check itself: small trees with what it is to find."""
+    """Tests of the check itself, on small trees with known findings."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -63,7 +63,7 @@ class Check(unittest.TestCase):
         self.tree.prepare()
 
     def found(self, **files):
-        """What is found in a tree with these files in core/a, which is its only room."""
+        """Returns the findings in a tree with these files in core/a, its only room."""
         for name, text in files.items():
             (self.tree.root / "core/a" / name.replace("_", ".")).write_text(text)
         [(room, of_room)] = self.tree.rooms().items()

@@ -1,4 +1,4 @@
-"""The project's own files as the tests of its structure see them."""
+"""The project's own files, for the tests of its structure."""
 import json
 import pathlib
 import re
@@ -13,7 +13,7 @@ QUIET = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\
 
 
 def files(*suffixes, folders=FOLDERS):
-    """Paths below ROOT, sorted, of the files that end so."""
+    """Returns the sorted paths below ROOT of files with these endings."""
     return sorted(file.relative_to(ROOT).as_posix() for folder in folders for file in (ROOT / folder).rglob("*")
                   if file.suffix in suffixes)
 
@@ -23,14 +23,14 @@ def cpp_files(folders=FOLDERS):
 
 
 def python_files():
-    """Modules, and the commands of tools that are Python."""
+    """Returns the Python modules, and the commands of tools that are in Python."""
     commands = [path for path in files("", folders=("tools",)) if (ROOT / path).is_file()
                 and (ROOT / path).read_bytes()[:40].startswith(b"#!/usr/bin/env python3")]
     return sorted(files(".py") + commands)
 
 
 def build_files():
-    """What CMake reads, and the parts of scripts."""
+    """Returns the files that CMake reads, including included parts."""
     lists = [path for path in files(".txt") if path.endswith("CMakeLists.txt")]
     return sorted(["CMakeLists.txt", *lists, *files(".cmake", ".sh")])
 
@@ -40,7 +40,7 @@ def read(path):
 
 
 def comments(text):
-    """(line, comment) for each comment of a C++ text."""
+    """Returns (line, comment) for each comment of a C++ text."""
     return [(text.count("\n", 0, found.start()) + 1, found[0]) for found in QUIET.finditer(text)
             if found[0].startswith("/")]
 
@@ -50,12 +50,12 @@ def without_comments(text):
 
 
 def code_alone(text):
-    """C++ text with comments and the contents of strings blanked; the lines stay."""
+    """Returns C++ text with comments and string contents blanked; line numbers are kept."""
     return QUIET.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
 
 
 def includes(path):
-    """The project's own files that a file includes."""
+    """Returns the project's own files that a file includes."""
     return [name for name in INCLUDE.findall(read(path)) if (ROOT / name).is_file()]
 
 
@@ -64,7 +64,7 @@ def folder_of(path):
 
 
 def has_ctags():
-    """Whether the ctags that is installed is Universal Ctags, with its JSON."""
+    """Whether the installed ctags is Universal Ctags with JSON output."""
     if not shutil.which("ctags"):
         return False
     said = subprocess.run(["ctags", "--list-features"], capture_output=True, text=True)
@@ -72,7 +72,7 @@ def has_ctags():
 
 
 def functions(kinds, folders=("core", "components", "tools")):
-    """A dictionary for each function that Universal Ctags finds; `kinds`: "f" for definitions, "p" for declarations."""
+    """Returns a dictionary for each function that Universal Ctags finds; `kinds`: "f" definitions, "p" declarations."""
     options = ["--languages=C++", f"--kinds-C++={kinds}", "--fields=+neS", "--output-format=json"]
     listed = subprocess.run(["ctags", *options, "-L", "-", "-f", "-"], cwd=ROOT, capture_output=True, text=True,
                             check=True, input="\n".join(cpp_files(folders)))

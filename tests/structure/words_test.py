@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Words that C++ has better ones for, and that can be seen in the text alone (tidy_test.py runs clang-tidy)."""
+"""C++ constructs with better replacements that can be found in the text alone (tidy_test.py runs clang-tidy)."""
 import re
 import unittest
 
@@ -19,7 +19,7 @@ UNWANTED = {"NULL: nullptr": r"\bNULL\b",
 
 
 def unwanted(text):
-    """(line, what it is) for each such word of a C++ text."""
+    """Returns (line, description) for each unwanted construct of a C++ text."""
     code = tree.code_alone(text)
     return [(code.count("\n", 0, found.start()) + 1, what) for what, pattern in UNWANTED.items()
             for found in re.finditer(pattern, code)]

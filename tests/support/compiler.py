@@ -9,7 +9,7 @@ from sus import ROOT
 
 
 def include_paths():
-    """Where Eigen's headers are."""
+    """Returns the include paths of Eigen's headers."""
     found = subprocess.run(["pkg-config", "--cflags", "eigen3"], capture_output=True, text=True)
     words = found.stdout.split() if found.returncode == 0 else ["-I/usr/include/eigen3"]
     return [word.replace("-I", "-isystem") for word in words]

@@ -12,12 +12,12 @@ XMLLINT = shutil.which("xmllint")
 
 
 def schema(language):
-    """The schema that `sus --schema` prints."""
+    """Returns the schema that `sus --schema` prints."""
     return subprocess.run([SUS, "--schema", language], capture_output=True, text=True, check=True).stdout
 
 
 def invalid(schema_text, language, files):
-    """Those of the files that are not valid, as strings. Raises RuntimeError for a schema that xmllint cannot read."""
+    """Returns the invalid files as strings. Raises RuntimeError for a schema that xmllint cannot read."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "schema." + language)
         path.write_text(schema_text)
@@ -30,7 +30,7 @@ def invalid(schema_text, language, files):
 
 
 def outside_brackets(text, wanted):
-    """Places of a character where no square bracket is open."""
+    """Returns the positions of a character outside square brackets."""
     depth, found = 0, []
     for place, letter in enumerate(text):
         depth += (letter == "[") - (letter == "]")
@@ -40,7 +40,7 @@ def outside_brackets(text, wanted):
 
 
 def follow(node, step):
-    """The child that a step such as `Face[2]` names, made where there is none."""
+    """Returns the child for a step such as `Face[2]`; creates it if it does not exist."""
     name, number = re.fullmatch(r"([^\[]+)(?:\[(\d+)\])?", step).groups()
     found = node.findall(name)
     place = int(number or 1) - 1
@@ -48,7 +48,7 @@ def follow(node, step):
 
 
 def overridden(text, *changes):
-    """A scene with changes as --set takes them, PATH=VALUE; the steps of a path are names with numbers."""
+    """Applies changes as in --set, PATH=VALUE, to a scene; the steps of a path are names with indices."""
     root = ElementTree.fromstring(text.encode())
     for change in changes:
         equals = outside_brackets(change, "=")[0]

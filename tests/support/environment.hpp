@@ -7,7 +7,7 @@
 
 namespace tushar::test {
 
-/// A variable of the environment that has another value, or none, as long as this lives.
+/// Sets or unsets an environment variable for the lifetime of the object.
 class Environment {
  public:
   Environment(std::string name, const std::optional<std::string>& value) : name_(std::move(name)) {

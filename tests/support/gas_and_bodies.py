@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What scenes of ups/fsi get wrong, against exact values: python3 tests/support/gas_and_bodies.py plug 100 200
+"""Errors of the scenes in ups/fsi against exact values: python3 tests/support/gas_and_bodies.py plug 100 200
 
 Each name below is a scene; the numbers are cells along x, and each gives a line.
 """
@@ -22,7 +22,7 @@ def scene(name):
 
 
 def resolution(name, cells):
-    """The overrides for so many cells along x."""
+    """Returns the overrides for a number of cells along x."""
     width, height = PLANE.get(name, (1, 0))
     across = max(1, round(cells * height / width))
     sets = [f"Grid/Level/Box/resolution=[{cells},{across},1]"]
@@ -33,7 +33,7 @@ def resolution(name, cells):
 
 
 class Outcome:
-    """What a run left behind."""
+    """The archive and report of a run."""
 
     def __init__(self, name, cells=None, sets=()):
         self.cells = cells
@@ -52,21 +52,21 @@ class Outcome:
         return self.totals[name][0][1 + component]
 
     def of_gas(self, column):
-        """A column of the cells that hold gas."""
+        """Returns a column of the cells that contain gas."""
         return [value for value, mass, free in zip(self.fields[column], self.fields[DENSITY], self.fields[FREE])
                 if mass > 0 and free >= 1e-9]
 
     def of_bodies(self, name, component=0):
-        """A total of the bodies alone: less that of the gas."""
+        """Returns a total of the bodies alone, without the gas."""
         gas = {"TotalMass": "GasMass", "TotalMomentum": "GasMomentum", "KineticEnergy": "GasKineticEnergy"}[name]
         return [whole[1 + component] - part[1 + component] for whole, part in zip(self.totals[name], self.totals[gas])]
 
     def worst(self, column, value):
-        """The greatest difference from a value in the gas."""
+        """Returns the largest difference from a value in the gas."""
         return max(abs(found - value) for found in self.of_gas(column))
 
     def energies(self):
-        """Of the gas and kinetic of the bodies, J, over time."""
+        """Returns the energy of the gas plus the bodies' kinetic energy [J] over time."""
         return [gas[1] + body for gas, body in zip(self.totals["GasEnergy"], self.of_bodies("KineticEnergy"))]
 
     def drift(self, values):
@@ -74,7 +74,7 @@ class Outcome:
 
 
 def uniform(name, cells, velocity):
-    """Largest errors of pressure and velocity where both should stay as they were, and of the energy."""
+    """Returns the largest errors of pressure and velocity where both should be constant, and of the energy."""
     run_of = Outcome(name, cells)
     errors = {"p": run_of.worst(PRESSURE, 1)}
     for axis, value in zip("xy", velocity):
@@ -96,7 +96,7 @@ def contact_of_gases(cells):
 
 
 def gas_masses(name, cells, *gases):
-    """How much the mass of each gas changed, of what it was."""
+    """Returns the relative change of each gas's mass."""
     run = Outcome(name, cells)
     return {f"mass of {gas}": run.last(f"TotalMass-{gas}") / run.first(f"TotalMass-{gas}") - 1 for gas in gases}
 
@@ -106,7 +106,7 @@ def carried_disc(cells):
 
 
 def moved(name, cells, mass, velocity, way):
-    """Errors of the velocity and the way of a rigid body, and the drift of all energy."""
+    """Returns the errors of a rigid body's velocity and displacement, and the drift of the total energy."""
     run_of = Outcome(name, cells)
     start, end = (line[1] for line in (run_of.totals["CenterOfMassPosition"][k] for k in (0, -1)))
     return {"v": run_of.of_bodies("TotalMomentum")[-1] / mass - velocity, "x": (end - start) / mass - way,
@@ -141,7 +141,7 @@ def sod_plate(cells):
 
 
 def elastic_wall(cells):
-    """Relative errors of the gas' pressure at the wall, and of the stress and speed behind the wave in it."""
+    """Returns relative errors of the gas pressure at the wall, and of stress and speed behind the wave in the wall."""
     run_of = Outcome("elastic_wall", cells)
     pressure, speed = 51.361597, .01007232
     places = run_of.fields["x [m]"]
@@ -159,7 +159,7 @@ def mean(values):
 
 
 def moving_piston(cells):
-    """Relative errors of the pressure on both faces of a piston of speed 1."""
+    """Returns relative errors of the pressure on both faces of a piston that moves at speed 1."""
     run_of = Outcome("moving_piston", cells)
     x, p = run_of.fields["x [m]"], run_of.fields[PRESSURE]
     shock = 1 + 1.4 * (.6 + math.sqrt(.36 + 1))  # of p = 1, c = 1, gamma = 1.4
@@ -169,7 +169,8 @@ def moving_piston(cells):
 
 
 def slow_piston(cells):
-    """Greatest relative errors of the pressure on both sides of it, away from its faces, and the number of steps."""
+    """Returns the largest relative pressure errors on both sides of the piston, away from it, and the number of
+    steps."""
     run_of = Outcome("slow_piston", cells)
     cut = list(zip(run_of.fields["x [m]"], run_of.fields[PRESSURE]))
     exact = {"ahead": .6 ** -1.4, "behind": 1.4 ** -1.4}
@@ -179,13 +180,13 @@ def slow_piston(cells):
 
 
 def burning_slab(cells):
-    """Relative error of the way that the surface of a slab has burned at constant pressure."""
+    """Returns the relative error of the burnt depth of a slab at constant pressure."""
     run_of = Outcome("burning_slab", cells)
     return {"way": run_of.last("BurntMass") / (20 * .1) - 1}
 
 
 def burnt_in_vessel(time, steps=2000):
-    """The mass that has burned in burning_vessel, kg, by Runge and Kutta's method of fourth order."""
+    """Returns the burnt mass in burning_vessel [kg], computed by the fourth-order Runge-Kutta method."""
     def pressure(mass):
         return .4 * (1.25 + 3.45 * mass) / (.5 + mass / 20)
 
@@ -200,8 +201,8 @@ def burnt_in_vessel(time, steps=2000):
 
 
 def burning_vessel(cells):
-    """Relative errors of the mass that has burned in a closed vessel and of the mean pressure, and what changes of the
-    mass and the energy there is."""
+    """Returns relative errors of the burnt mass and of the mean pressure in a closed vessel, and the relative changes
+    of mass and energy."""
     run_of = Outcome("burning_vessel", cells)
     mass, pressure = burnt_in_vessel(20)
     gas = [(p, free) for p, free in zip(run_of.fields[PRESSURE], run_of.fields[FREE]) if free >= 1e-9]
@@ -212,7 +213,7 @@ def burning_vessel(cells):
 
 
 def energies_of_burning(run_of):
-    """Of gas and bodies less the heat of the reaction, J, over time."""
+    """Returns the energy of gas and bodies minus the heat of reaction [J] over time."""
     names = [name for name in ("GasEnergy", "ThermalEnergy", "StrainEnergy") if name in run_of.totals]
     sums = [math.fsum(run_of.totals[name][k][1] for name in names) - heat[1]
             for k, heat in enumerate(run_of.totals["ReactionHeat"])]
@@ -221,8 +222,7 @@ def energies_of_burning(run_of):
 
 
 def burning_grain(cells, sets=()):
-    """What a burning grain and the gases around it have more or less of than at the start, of what they had, and the
-    part of it that has burned."""
+    """Returns the relative changes of the totals of a burning grain and the gases around it, and the burnt fraction."""
     run_of = Outcome("burning_grain", cells, sets)
     return {"mass": run_of.drift([line[1] for line in run_of.totals["TotalMass"]]),
             "mass of air": run_of.drift([line[1] for line in run_of.totals["TotalMass-air"]]),
@@ -231,7 +231,8 @@ def burning_grain(cells, sets=()):
 
 
 def oblique_shock(mach, angle, gamma=1.4):
-    """Angle and pressure ratio of the weak shock that turns a flow, angles in rad. Source: theta-beta-M relation."""
+    """Returns angle and pressure ratio of the weak shock that turns a flow, angles in rad. Source: theta-beta-M
+    relation."""
     def turned(beta):
         across = mach * mach * math.sin(beta) ** 2 - 1
         return math.atan(2 / math.tan(beta) * across / (mach * mach * (gamma + math.cos(2 * beta)) + 2))
@@ -243,7 +244,7 @@ def oblique_shock(mach, angle, gamma=1.4):
 
 
 def wedge(cells):
-    """Relative error of the mean pressure from 4 cells above the surface up to .6 of the layer behind the shock."""
+    """Returns the relative error of the mean pressure from 4 cells above the surface up to .6 of the shock layer."""
     run_of = Outcome("wedge", cells)
     angle = math.radians(15)
     beta, ratio = oblique_shock(2, angle)
@@ -256,14 +257,14 @@ def wedge(cells):
 
 
 def cylinder(cells):
-    """Where its centre is at the end."""
+    """Returns the final position of the cylinder's centre."""
     run_of = Outcome("cylinder", cells)
     mass = run_of.of_bodies("TotalMass")[0]
     return {axis: run_of.last("CenterOfMassPosition", k) / mass for k, axis in enumerate("xy")}
 
 
 def closed_box(cells):
-    """How much the mass of the gas and all energy, that of strain included, change, relative."""
+    """Returns the relative changes of the gas mass and of the total energy, including strain energy."""
     run_of = Outcome("closed_box", cells)
     energies = [one + strain[1] for one, strain in zip(run_of.energies(), run_of.totals["StrainEnergy"])]
     return {"mass": run_of.drift([line[1] for line in run_of.totals["GasMass"]]),
@@ -271,7 +272,7 @@ def closed_box(cells):
 
 
 def couette(cells):
-    """Errors of the velocity over the greatest, in full cells away from the plate, and of the force, relative."""
+    """Returns relative errors of the velocity, in full cells away from the plate, and of the force."""
     with tempfile.TemporaryDirectory() as folder:
         archive = archive_of(scene("couette"), folder, f"Grid/Level/Box/resolution=[4,{cells},1]",
                              f"Grid/Level/Box/upper=[{4 / cells},1,1]")
@@ -283,7 +284,7 @@ def couette(cells):
 
 
 def warm_body(cells, face=.78):
-    """Relative error of the heat that a body gives in a second, by the place of its face."""
+    """Returns the relative error of the heat that a body releases in a second, by the position of its face."""
     text = scene("warm_body").read_text().replace("[0.78,0,0]", f"[{face},0,0]")
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "warm_body.ups")
@@ -297,7 +298,7 @@ def warm_body(cells, face=.78):
 
 
 def tip_of_panel(archive, time):
-    """How far the tip of the panel has gone downstream, m: the mean of the upper half millimetre."""
+    """Returns the downstream displacement [m] of the panel's tip: the mean of the upper half millimetre."""
     found = columns(archive, "p.displacement", time=time)
     moved = zip(found["p.displacement.x [m]"], found["p.displacement.y [m]"], found["y [m]"])
     return mean([dx for dx, dy, y in moved if y - dy > .0495])
@@ -310,21 +311,21 @@ def panel_until(cells, time, folder):
 
 
 def panel(cells):
-    """How far its tip has gone downstream after 1.3 ms, m."""
+    """Returns the downstream displacement [m] of the tip after 1.3 ms."""
     with tempfile.TemporaryDirectory() as folder:
         return {"tip": tip_of_panel(panel_until(cells, 1.3e-3, folder), 1.3e-3)}
 
 
 def panel_period(cells):
-    """The first and the second peak of its tip, m, and the time between them over the first period of a clamped beam in
-    plane strain, 2.72 ms, less 1."""
+    """Returns the first and the second peak of the tip [m], and the relative difference between the time from peak to
+    peak and 2.72 ms, the first period of a clamped beam in plane strain."""
     with tempfile.TemporaryDirectory() as folder:
         archive = panel_until(cells, 4.3e-3, folder)
         return peaks_of_panel(archive, 5e-5)
 
 
 def peaks_of_panel(archive, interval):
-    """The same of an archive that has its tip at this interval, s."""
+    """As panel_period, for an archive that has the tip's position at the given interval [s]."""
     times = {"first": (1e-3, 1.7e-3), "second": (3.5e-3, 4.3e-3)}
     peaks = {}
     for name, (start, end) in times.items():

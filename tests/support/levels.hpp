@@ -16,7 +16,7 @@ inline grid::Domain domain(const Index3& resolution, const Index3& patches = {{1
   return domain;
 }
 
-/// A grid of unit length along its first D axes, in two patches along each, without conditions.
+/// A grid of unit length along its first D axes, in two patches along each, without boundary conditions.
 template <int D>
 grid::Domain unitBox(int cells) {
   grid::Domain domain;
@@ -29,7 +29,7 @@ grid::Domain unitBox(int cells) {
   return domain;
 }
 
-/// A plane grid of cells of 1 m, without conditions.
+/// A plane grid of cells of 1 m, without boundary conditions.
 inline grid::Domain unitCells(int x, int y) {
   grid::Domain domain;
   domain.upper = Vec3(x, y, 0);

@@ -1,4 +1,4 @@
-"""Runs scenes with analysis modules that write files: what these are on any layout, after a restart and a kill."""
+"""Runs scenes with analysis modules that write files: their content on any layout, after a restart and a kill."""
 import pathlib
 import subprocess
 import sys
@@ -33,7 +33,7 @@ def sus(*arguments, ranks=1, options=("--quiet",)):
 
 @unittest.skipIf(MISSING, MISSING)
 class ModuleTest(unittest.TestCase):
-    """A test of modules that has `files_of(archive)`: what they have written, by the names of the files."""
+    """A test of modules; `files_of(archive)` returns the files they have written, by name."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -41,7 +41,7 @@ class ModuleTest(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def with_modules(self, of, modules, save=""):
-        """A copy of a scene with these modules in place of its own."""
+        """Returns a copy of a scene with these modules in place of its own."""
         text = of.read_text()
         if "</DataAnalysis>" in text:
             text = text[:text.index("<DataAnalysis>")] + "</Uintah_specification>"
@@ -52,17 +52,17 @@ class ModuleTest(unittest.TestCase):
         return path
 
     def well(self, ended):
-        """The standard output of a run that ended well."""
+        """Returns the standard output of a run that must succeed."""
         self.assertEqual(ended.returncode, 0, ended.stderr)
         return ended.stdout
 
     def run_in(self, name, scene, *options, ranks=1):
-        """The archive that a run of a scene makes in a folder of that name."""
+        """Runs a scene and returns its archive, in a folder of that name."""
         self.well(sus(scene, "--output", self.folder / name, *options, ranks=ranks))
         return next((self.folder / name).glob("*.uda.000"))
 
     def assert_same_bytes_on_any_layout(self, scene, is_whole):
-        """The files of the vortex do not depend on layout and restarts; `is_whole` looks at those of one patch."""
+        """Asserts that the vortex's files do not depend on layout or restarts; `is_whole` checks those of one patch."""
         expected = self.files_of(self.run_in("one", scene, *SMALL, "-nthreads", "1"))
         is_whole(expected)
         for name, (ranks, patches) in {"patches": (1, "[2,3,1]"), "ranks": (3, "[2,2,2]")}.items():
@@ -73,7 +73,8 @@ class ModuleTest(unittest.TestCase):
         self.assertEqual(self.files_of(cut), expected, "after a restart")
 
     def assert_same_bytes_after_a_kill(self, scene, steps, step):
-        """Killed after the checkpoint of a step and restarted, the vortex leaves the files of a run that was not."""
+        """Asserts that a run killed after a step's checkpoint and restarted leaves the files of an uninterrupted
+        one."""
         many = [*SMALL, "--set", f"Time/max_Timesteps={steps}", "--set", "Time/maxTime=1000", "--set",
                 "DataArchiver/outputTimestepInterval=1000", "--set",
                 f"DataArchiver/checkpoint/@timestepInterval={step}"]

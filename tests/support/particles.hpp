@@ -6,7 +6,7 @@
 
 namespace tushar::test {
 
-/// The particles of a grid of one patch, and views of values of them.
+/// The particles of a grid of one patch, with views of their values.
 struct Particles {
   Grid grid;
   const Level& level = grid.level();

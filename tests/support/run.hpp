@@ -9,15 +9,15 @@
 
 namespace tushar::test {
 
-/// A grid, a warehouse and a scheduler, to run small task lists on.
+/// A grid, a warehouse and a scheduler for running small task lists.
 class Runner {
  public:
-  /// On one of some ranks, or on one alone.
+  /// For one of several ranks, or for a serial run.
   explicit Runner(const grid::Domain& domain, int threads = 1,
                   const mpi::Communicator& ranks = mpi::Communicator::alone())
       : grid(domain, {ranks.rank(), ranks.size()}), warehouse(grid, table, ranks), scheduler(warehouse, threads) {}
 
-  /// Compiles a list; compile all before the first run.
+  /// Compiles a list; all lists must be compiled before the first run.
   tasks::TaskGraph compile(const tasks::TaskList& list, const tasks::Names& wanted, bool repeated = false) {
     tasks::TaskGraph graph("test", tasks::prune(list.tasks(), wanted, repeated), grid, table);
     materials_ = std::max(materials_, graph.materials());

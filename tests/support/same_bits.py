@@ -1,4 +1,4 @@
-"""Tests that a scene has the same bits on any patches, threads and ranks, and after a restart."""
+"""Tests that a scene gives the same bits on any patches, threads and ranks, and after a restart."""
 import pathlib
 
 import gas_and_bodies as fsi
@@ -8,7 +8,7 @@ from uda import FolderTest
 
 class SameBitsTest(FolderTest):
     def assert_same(self, name, steps, layouts, *sets, ranks):
-        """The third of the `layouts` of patches runs on so many ranks; every other one on two threads."""
+        """The third of the `layouts` of patches runs on several ranks; every other layout on two threads."""
         scene = name if isinstance(name, pathlib.Path) else fsi.scene(name)
         sets = (f"Time/max_Timesteps={steps}", *sets)
         prints = {}

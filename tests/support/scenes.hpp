@@ -14,7 +14,7 @@
 
 namespace tushar::test {
 
-/// Runs a scene of `ups/` with some values overridden, without files; gives its report.
+/// Runs a scene of `ups/` with some values overridden, without files; returns its report.
 inline report::Report runScene(const std::string& scene, const std::vector<std::string>& overrides) {
   simulation::Problem problem = scene::readScene(scene, overrides, catalogue());
   problem.archive.saves.clear();
@@ -23,7 +23,7 @@ inline report::Report runScene(const std::string& scene, const std::vector<std::
   return simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run();
 }
 
-/// A copy of a scene with a piece of text replaced.
+/// Returns a copy of a scene with a piece of text replaced.
 inline std::string changedScene(const std::string& scene, const std::string& from, const std::string& to) {
   std::stringstream text;
   text << std::ifstream(scene).rdbuf();
@@ -46,7 +46,7 @@ inline std::string problemOf(const std::string& scene, const std::vector<std::st
   }
 }
 
-/// The drift of a quantity that a report has.
+/// Returns the drift of a quantity of a report.
 inline double driftOf(const report::Report& report, const std::string& name) {
   for (const report::Drift& drift : report.drifts)
     if (drift.name == name) return drift.change;

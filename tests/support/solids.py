@@ -1,4 +1,4 @@
-"""What scenes of solids leave behind in their global quantities."""
+"""Runs scenes of solids and reads their global quantities."""
 import pathlib
 import subprocess
 import tempfile
@@ -11,7 +11,7 @@ class SceneTest(unittest.TestCase):
     """A test that runs scenes which it writes itself."""
 
     def scene(self, text):
-        """A file with the scene, for as long as the test takes."""
+        """Writes the scene into a file that exists during the test."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         path = pathlib.Path(folder.name, "scene.ups")
@@ -23,7 +23,7 @@ class RefusedSceneTest(SceneTest):
     """A test of scenes that sus refuses."""
 
     def assert_refused(self, text, sentence):
-        """A scene with this text ends with exit code 3, and the sentence with its place."""
+        """Asserts that a scene with this text ends with exit code 3, and with the message at its place."""
         done = run(self.scene(text), "Time/max_Timesteps=1")
         self.assertEqual(done.code, 3, done.err)
         self.assertIn(sentence, done.err)
@@ -31,7 +31,7 @@ class RefusedSceneTest(SceneTest):
 
 
 def globals_of(scene, *names, sets=(), until=None):
-    """Name -> the lines of its .dat file, as numbers: time, value or values."""
+    """Returns the lines of each .dat file as numbers (time, value or values), by name."""
     with tempfile.TemporaryDirectory() as folder:
         command = [SUS, scene, "--quiet", "--output", folder, "--set", "DataArchiver/outputInterval=0"]
         for override in (*sets, *([f"Time/maxTime={until}"] if until else [])):
@@ -44,7 +44,7 @@ def globals_of(scene, *names, sets=(), until=None):
 
 
 def archive_of(scene, folder, *sets):
-    """Runs a scene; where its archive is."""
+    """Runs a scene and returns the path of its archive."""
     command = [SUS, scene, "--quiet", "--output", folder]
     for override in sets:
         command += ["--set", override]
@@ -53,7 +53,7 @@ def archive_of(scene, folder, *sets):
 
 
 def columns(archive, *names, material=None, time=None):
-    """Column -> its values in the output nearest to a time, or in the last."""
+    """Returns the values by column in the output nearest to a time, or in the last output."""
     command = [ROOT / "tools/uda", archive, *names, "--csv", "-"]
     command += ["--material", material] if material else []
     command += ["--time", str(time)] if time else []
@@ -63,13 +63,13 @@ def columns(archive, *names, material=None, time=None):
 
 
 def last_state(scene, *names, material=None, sets=()):
-    """Column -> its values where a scene ends."""
+    """Returns the values by column at the end of a scene."""
     with tempfile.TemporaryDirectory() as folder:
         return columns(archive_of(scene, folder, *sets), *names, material=material)
 
 
 def relative_drift(lines):
-    """The greatest change of a vector over a run, over its length at the start."""
+    """Returns the largest change of a vector during a run, relative to its initial length."""
     start = lines[0][1:]
     length = sum(v * v for v in start) ** .5
     return max(sum((v - w) ** 2 for v, w in zip(line[1:], start)) ** .5 for line in lines) / length

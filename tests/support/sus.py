@@ -1,4 +1,4 @@
-"""Runs sus for tests: the program in $SUS, from the root of the repository, output in a folder that goes away."""
+"""Runs sus for tests: the program in $SUS, from the root of the repository, with output in a temporary folder."""
 import json
 import os
 import pathlib
@@ -14,12 +14,12 @@ os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1"
 
 
 def on_ranks(count):
-    """What to put before the program to start it on several ranks; nothing for one."""
+    """Returns the words in front of the program that start it on several ranks; none for one rank."""
     return [] if count == 1 else ["mpirun", "--oversubscribe", "-n", str(count)]
 
 
 class Result:
-    """Exit code, what was printed, the report if there is one, and the names of the files left behind."""
+    """Exit code, printed text, report if there is one, and names of the files left behind."""
 
     def __init__(self, done, report, files):
         self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
@@ -27,7 +27,7 @@ class Result:
 
 
 def run(scene, *sets, options=("--quiet",), outputs=False, ranks=1):
-    """Runs a scene with overrides; without `outputs` only the totals are kept."""
+    """Runs a scene with overrides; without `outputs` only the totals are saved."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "report.json")
         command = [*on_ranks(ranks), SUS, str(scene), *options, "--output", folder, "--json", str(path)]

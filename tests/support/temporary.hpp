@@ -7,7 +7,7 @@
 
 namespace tushar::test {
 
-/// A folder of this test process alone, `/` at its end; removed when the process ends. Tests run side by side.
+/// A folder for this test process alone, ending in `/`; removed when the process ends. Tests run concurrently.
 inline const std::string& temporaryFolder() {
   struct Folder {
     std::string path;
@@ -24,7 +24,7 @@ inline const std::string& temporaryFolder() {
   return folder.path;
 }
 
-/// A new folder in it.
+/// Creates a new folder in it.
 inline std::filesystem::path newFolder(const std::string& name) {
   const std::filesystem::path folder = temporaryFolder() + name;
   std::filesystem::create_directories(folder);

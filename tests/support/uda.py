@@ -14,7 +14,7 @@ MEMORY = next((path for path in ("/dev/shm",) if os.access(path, os.W_OK)), None
 
 
 def words_of(layout):
-    """[2,3,1] as -layout wants it."""
+    """Returns [2,3,1] in the form that -layout expects."""
     return "x".join(layout.strip("[]").split(","))
 
 
@@ -35,7 +35,7 @@ class Folder:
         return command
 
     def finish(self, words, sets):
-        """Exit code, errors and (of a run that ended well) the report."""
+        """Returns exit code, errors and (for a successful run) the report."""
         (self.path / "report.json").unlink(missing_ok=True)
         done = subprocess.run(self.command(words, sets), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
         report = self.path / "report.json"
@@ -54,12 +54,12 @@ class Folder:
 
     @property
     def uda(self):
-        """The link to the newest .uda."""
+        """Returns the link to the newest .uda."""
         return next(path for path in self.path.iterdir() if path.suffix == ".uda")
 
     @property
     def checkpoints(self):
-        """Folders of the checkpoints, by step; one that a killed run has not finished ends in .tmp and is none."""
+        """Returns the checkpoint folders by step; unfinished ones of a killed run, which end in .tmp, do not count."""
         return sorted(path for path in (self.uda / "checkpoints").iterdir() if path.is_dir() and path.suffix != ".tmp")
 
 
@@ -67,13 +67,13 @@ class FolderTest(unittest.TestCase):
     """A test that runs scenes in folders of its own."""
 
     def folder(self, ranks=1, on_disk=False):
-        """A folder for as long as the test takes."""
+        """Returns a folder that exists during the test."""
         folder = Folder(on_disk, ranks)
         self.addCleanup(folder.cleanup)
         return folder
 
     def small_disk(self, folder, size):
-        """A disk of that size, below a folder; skips the test where none can be made."""
+        """Mounts a disk of that size below a folder; skips the test where this is impossible."""
         disk = folder / "small"
         disk.mkdir()
         if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", disk], capture_output=True).returncode:
@@ -82,13 +82,13 @@ class FolderTest(unittest.TestCase):
         return disk
 
     def well(self, result):
-        """The report of a run that ended well."""
+        """Returns the report of a run that must succeed."""
         code, errors, report = result
         self.assertEqual((code, errors), (0, ""))
         return report
 
     def fingerprint_of_two_parts(self, scene, steps, *sets):
-        """The fingerprint of a run of so many steps that goes on from a checkpoint in its middle."""
+        """Returns the fingerprint of a run that is restarted from a checkpoint in its middle."""
         folder, half = self.folder(), steps // 2
         folder.run(scene, *sets, f"DataArchiver/checkpoint/@timestepInterval={half}", f"Time/max_Timesteps={half + 1}")
         return self.well(folder.restart(f"Time/max_Timesteps={steps}", step=half))["fingerprint"]

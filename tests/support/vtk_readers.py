@@ -1,4 +1,4 @@
-"""VTK's readers of VTKHDF, h5py and numpy, for the tests of what viewers see; MISSING says what is not there."""
+"""VTK's readers of VTKHDF, h5py and numpy, for tests of viewer files; MISSING names what is not installed."""
 import sys
 
 from sus import ROOT

@@ -52,7 +52,7 @@ void add(const Patch& patch, const Material&, int by, const Sums& s) {
   });
 }
 
-/// The list of one step, with the second factor or without.
+/// Returns the task list of one step, with or without the second factor.
 TaskList listOf(bool hasSecond) {
   TaskList list;
   list.perMaterial("fill", fill, two, computes(first), computes(second));
@@ -121,7 +121,7 @@ TEST(AccessGroup, BecomesOneForEachPatchAndMaterialWhereATaskSeesTheRank) {
   EXPECT_EQ(totalOf(list, run), cells * (1 + 10));
 }
 
-/// What belongs to no material, as one view among those of materials.
+/// A view without a material among views with one.
 struct Common {
   CellView<double> mean;
 

@@ -38,7 +38,7 @@ struct Material {
 };
 const std::vector<Material> gas{{"gas"}};
 
-/// What running a list throws, without the number of the patch.
+/// Returns the message that running a list throws, without the patch index.
 std::string failure(test::Runner& run, TaskGraph& graph) {
   try {
     run.step(graph);
@@ -48,7 +48,7 @@ std::string failure(test::Runner& run, TaskGraph& graph) {
   return "";
 }
 
-/// Two particles in each cell, ids 2 c and 2 c + 1 of cell c, their density 1 + id / 100.
+/// Two particles in each cell: ids 2 c and 2 c + 1 in cell c, with density 1 + id / 100.
 template <int D>
 void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<D>>& positions,
             std::vector<double>& densities) {
@@ -64,7 +64,7 @@ void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vect
   });
 }
 
-/// What is said if particles get wrong densities in a step, before or after they are relocated.
+/// Returns the message if particles get wrong densities in a step, before or after relocation.
 template <int D>
 std::string planted(const grid::Domain& domain, const std::map<ParticleId, double>& wrong, bool relocated) {
   test::Runner run(domain);
@@ -98,7 +98,7 @@ std::string planted(const grid::Domain& domain, const std::map<ParticleId, doubl
   return failure(run, step);
 }
 
-/// What is said if a node or cell variable is set to `value` in one place.
+/// Returns the message if a node or cell variable is set to `value` in one place.
 template <int D, class Label>
 std::string plantedOnGrid(const grid::Domain& domain, const Label& label, const Index<D>& where, double value) {
   test::Runner run(domain);

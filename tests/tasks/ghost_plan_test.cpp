@@ -28,7 +28,7 @@ grid::Domain blocks(int dimension, int blockCells, bool isPeriodic) {
   return domain;
 }
 
-/// Refines some leaves, drawn by chance.
+/// Refines some randomly chosen leaves.
 void refineSome(Grid& grid, std::mt19937& random) {
   for (int level = 0; level + 1 < grid.levels(); ++level) {
     std::vector<BlockId> wanted;
@@ -40,7 +40,7 @@ void refineSome(Grid& grid, std::mt19937& random) {
   }
 }
 
-/// How often each cell of a box is in one of others.
+/// Counts how often each cell of a box is contained in other boxes.
 class Cover {
  public:
   explicit Cover(const Box& all) : all_(all), counts_(all.size()) {}
@@ -49,7 +49,7 @@ class Cover {
       if (all_.contains(at)) ++counts_[all_.offset(at)];
     });
   }
-  /// Cells of the box but those of a hole that are not covered once.
+  /// Returns the number of cells of the box, outside a hole, that are not covered exactly once.
   int wrong(const Box& hole) const {
     int wrong = 0;
     grid::forEach<3>(all_, [&](const Index3& at) { wrong += counts_[all_.offset(at)] != (hole.contains(at) ? 0 : 1); });
@@ -61,7 +61,7 @@ class Cover {
   std::vector<int> counts_;
 };
 
-/// Ghosts of all patches, and cells that they are made from, that come from nowhere or from several places.
+/// Returns the number of ghosts, and of cells used to compute them, whose source is missing or not unique.
 int wrongGhosts(const Grid& grid, int width) {
   const GhostPlan plan = planGhosts(grid, {data::Centring::cell, width});
   int wrong = 0;
@@ -81,7 +81,7 @@ int wrongGhosts(const Grid& grid, int width) {
   return wrong;
 }
 
-/// The same, of some trees drawn by chance.
+/// As above, for some random trees.
 int wrongGhostsOfTrees(int dimension, int width, int blockCells) {
   std::mt19937 random(7);
   int wrong = 0;

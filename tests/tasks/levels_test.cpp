@@ -46,7 +46,7 @@ void fillLinear(const Patch& patch, CellView<double> values) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { values[cell] = linear<D>(patch.level().cellCentre<D>(cell)); });
 }
 
-/// Away from sides of the grid, beside which nothing is known of the slope.
+/// Compares away from the sides of the grid, where the slope is unknown.
 template <int D>
 void compareLinear(const Patch& patch, CellView<const double> values, Maximum& difference) {
   const Level& level = patch.level();
@@ -69,7 +69,7 @@ double greatestDifferenceOfLinear(int levels, int width, int blocksPerPatch) {
   return run.warehouse.reductionValues(run.table.find("greatest", -1)).at(0);
 }
 
-/// A smooth field that repeats along all axes.
+/// A smooth field that is periodic along all axes.
 template <int D>
 double wave(const Vec<D>& x) {
   double product = 1;
@@ -145,7 +145,7 @@ void integrate(const Patch& patch, CellView<const double> values, Sum& sum) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(patch.level().cellVolume() * values[cell]); });
 }
 
-/// What a wave is like after some steps: its integral before and after, and its cells in the order of the curve.
+/// A wave after a number of steps: its integral before and after, and its cells in the order of the curve.
 struct Advected {
   double before, after;
   std::vector<double> cells;
@@ -224,7 +224,7 @@ namespace {
 /// A constant field that grows by 1 in a step.
 void fillBefore(const Patch&, CellView<double> values) { values.fill(3); }
 void fillAfter(const Patch&, CellView<const double>, CellView<double> values) { values.fill(4); }
-/// How much ghosts have grown of cells beside [16, 48), those of level 1 in a grid of two levels; others have not.
+/// Compares the growth of ghosts beside [16, 48), the cells of level 1 of two; other ghosts have not grown.
 void compareGrowth(const Patch&, CellView<const double> values, Maximum& growth) {
   forEach<1>(values.box(), [&](const Index<1>& cell) {
     if (cell[0] < 16 || cell[0] >= 48)
@@ -258,7 +258,7 @@ TEST(Levels, HaveGhostsInCoarserCellsThatAreBetweenOldAndNewAtAPartOfTheirStep) 
 
 namespace {
 
-/// The waves of checkAdvection by three levels that each take two steps in one of the next coarser.
+/// The waves of checkAdvection on three levels, each with two steps per step of the next coarser level.
 template <int D>
 class SteppedWaves {
  public:

@@ -25,7 +25,7 @@ void fill(const Patch& patch, CellView<double> field) {
   forEach<1>(patch.cells(), [&](const Index<1>& cell) { field[cell] = 1 + cell[0]; });
 }
 
-/// What no patch can do alone: each cell gets the sum of all cells up to it.
+/// An operation that needs all patches of a rank: each cell gets the sum of all cells up to it.
 void accumulate(const RankPatches& patches, const std::vector<CellView<const double>>& from,
                 const std::vector<CellView<double>>& to, Sum& ran) {
   double sum = 0;

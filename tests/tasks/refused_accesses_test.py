@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a task's arguments must not be does not compile, and the compiler says why."""
+"""Invalid arguments of a task do not compile, and the compiler's message gives the reason."""
 import pathlib
 import sys
 import unittest
@@ -37,7 +37,7 @@ void task(TaskList& list, const std::vector<Material>& materials) {
 
 def piece(members=".density = take(requiresNew(::density)), .other = take(computes(::other))",
           use="group.other[cell] = group.density[cell]", task=""):
-    """A task list that compiles, but for what is given otherwise."""
+    """Returns a task list that compiles except for the parts given."""
     return START % (members, use, task)
 
 

@@ -31,7 +31,7 @@ const std::vector<Material> gas{{"gas"}};
 
 double markOf(ParticleId id) { return 0.5 + static_cast<double>(id % 1000003); }
 
-/// A number from 0 to 1 that depends on its argument only.
+/// Returns a pseudo-random value from 0 to 1 that depends only on the argument.
 double noise(std::uint64_t seed) {
   seed = (seed ^ (seed >> 31)) * 0x7fb5d329728ea185ULL;
   seed = (seed ^ (seed >> 27)) * 0x81dadef4bc2dd44dULL;
@@ -55,7 +55,7 @@ void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vect
   });
 }
 
-/// Everyone jumps up to two and a half cells, and stays on the grid.
+/// Moves every particle by up to two and a half cells, within the grid.
 template <int D>
 void wander(const Patch& patch, const Material&, ParticleView<const Vec<D>> from, ParticleView<const ParticleId> ids,
             ParticleView<Vec<D>> to) {
@@ -68,7 +68,7 @@ void wander(const Patch& patch, const Material&, ParticleView<const Vec<D>> from
     }
 }
 
-/// Counts particles in a wrong cell, out of order, or with another's mark; ghosts included.
+/// Counts particles in a wrong cell, unsorted, or with a wrong mark; ghosts included.
 template <int D>
 void inspect(const Patch& patch, const Material&, ParticleView<const Vec<D>> position,
              ParticleView<const ParticleId> ids, ParticleView<const double> marks, data::Sum& errors) {
@@ -85,10 +85,10 @@ void inspect(const Patch& patch, const Material&, ParticleView<const Vec<D>> pos
   });
 }
 
-/// When particles are examined: still in the step, or when it counts.
+/// The time at which particles are examined: within the step or after it.
 enum class Look { inStep, afterwards };
 
-/// Positions by id after some steps, and what `inspect` found on the way.
+/// Returns positions by id after some steps, and the errors that `inspect` found.
 template <int D>
 std::pair<std::map<ParticleId, Vec<D>>, double> wanderFor(int steps, const Index3& resolution, const Index3& patches,
                                                           Look look) {
@@ -148,7 +148,7 @@ void shiftAll(TaskList& advance, double shift) {
   advance.relocate(x<1>, gas);
 }
 
-/// The error of the first step, if there is one.
+/// Returns the error of the first step, if any.
 std::optional<NumericalError> errorOf(test::Runner& run, const TaskList& start, const TaskList& advance) {
   TaskGraph begin = run.compile(start, {"p.x"}), step = run.compile(advance, {"p.x"}, true);
   run.step(begin);
@@ -160,7 +160,7 @@ std::optional<NumericalError> errorOf(test::Runner& run, const TaskList& start, 
   return std::nullopt;
 }
 
-/// The sentence of an advance in which everyone moves by `shift`, on a grid with a free upper x face if `open`.
+/// Returns the message of a step in which all particles move by `shift`; the upper x face is open if `open`.
 std::string shifted(double shift, bool open, long& dropped) {
   grid::Domain domain = test::domain({{8, 1, 1}}, {{2, 1, 1}});
   if (open) domain.boundaries.face(0, 1).clear();
@@ -257,7 +257,7 @@ TEST(Relocation, RefusesToLetParticlesThroughASymmetryPlaneOrToNowhere) {
 
 namespace {
 
-/// The sentence and the advice of an advance in which the one particle, in cell 32 of 64, moves by some finest cells.
+/// Returns message and advice of a step in which the only particle, in cell 32 of 64, moves by some finest cells.
 /// Cells 16 to 47 are there, those around them are of the coarser level.
 std::string movedOnLevels(double cells) {
   grid::Domain domain = test::domain({{32, 1, 1}});

@@ -31,7 +31,7 @@ struct Material {
 };
 const std::vector<Material> gas{{"gas"}};
 
-/// A tube of 8 cells, open at its upper end, three particles in each cell, and a step that shifts them.
+/// A tube of 8 cells, open at its upper end, with three particles in each cell, and a step that moves them.
 class Tube {
  public:
   explicit Tube(int patches) : run(domain(patches)) {
@@ -64,7 +64,7 @@ class Tube {
   }
 
   double value(std::string_view label) { return run.warehouse.reductionValues(run.table.find(label, -1)).at(0); }
-  /// Everything that is old, byte by byte.
+  /// Returns the bytes of all old variables.
   std::string state() {
     std::string bytes;
     for (const char* label : {"p.x", "p.mass", "p.particleID"})

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What tools/run says while it builds, or need not."""
+"""The output of tools/run during a build, and if no build is needed."""
 import contextlib
 import fcntl
 import os
@@ -26,8 +26,8 @@ class Build(unittest.TestCase):
         (self.here / "build/release/build.ninja").touch()
 
     def commands(self, ninja, each=60):
-        """What builds in the one folder, if ninja is this script, with a line in the log each so many seconds:
-        tools/run, and sus for a module."""
+        """Returns the commands that build in the same folder, with this script as ninja and a log line every `each`
+        seconds: that of tools/run, and that of sus for a module."""
         (self.here / "ninja").write_text("#!/bin/sh\n" + ninja)
         (self.here / "ninja").chmod(0o755)
         start = f"set -euo pipefail; PATH={self.here}:$PATH; export building_each={each}; "
@@ -39,13 +39,13 @@ class Build(unittest.TestCase):
         return self.commands(ninja, each)["build"]
 
     def build(self, ninja, each=60):
-        """What `build release` says, and its exit code."""
+        """Returns the output of `build release` and its exit code."""
         done = subprocess.run(self.command(ninja, each), capture_output=True, text=True)
         self.assertEqual(done.stdout, "")
         return done.stderr, done.returncode
 
     def build_on_terminal(self, ninja):
-        """What a terminal gets of the build, its line ends as \\n."""
+        """Returns what the build prints on a terminal, with \\n at line ends."""
         ours, theirs = pty.openpty()
         subprocess.run(self.command(ninja), stderr=theirs)
         os.close(theirs)
@@ -100,7 +100,7 @@ class Build(unittest.TestCase):
                 (self.here / "built").unlink()
 
     def program_as_ninja(self, program):
-        """A copy of a program by the name of ninja, not where commands() puts its script."""
+        """Copies a program as ninja into a folder other than that of commands()."""
         (self.here / "by_hand").mkdir()
         return shutil.copy(shutil.which(program), self.here / "by_hand/ninja")
 

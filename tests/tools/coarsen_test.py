@@ -25,7 +25,7 @@ SETS = ["Time/maxTime=0.05", "DataArchiver/outputInterval=0"]
 
 
 def coarsen(*arguments):
-    """Exit code and what a run of the tool says."""
+    """Returns exit code and output of a run of the tool."""
     done = subprocess.run([sys.executable, ROOT / "tools/coarsen", *map(str, arguments)], capture_output=True,
                           text=True)
     return done.returncode, done.stdout + done.stderr

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`sus --completion bash`: what bash offers after sus, by the function that the script defines."""
+"""`sus --completion bash`: bash's suggestions after sus, from the function that the script defines."""
 import pathlib
 import subprocess
 import sys
@@ -73,7 +73,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.offered(f"{SUS} --set Time/"), [])
 
     def test_only_what_follows_the_last_break_is_offered(self):
-        """bash replaces what follows the last = : or @."""
+        """bash replaces the part after the last = : or @."""
         self.assertEqual(self.offered(SCENE + "--set Grid/BoundaryConditions/Face[2]/@"), ["side="])
 
     def test_every_path_can_be_set(self):

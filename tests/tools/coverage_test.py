@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tools/coverage: what it says of scenes that run, are refused, fail, or do not end."""
+"""Tests of tools/coverage: its reports on scenes that run, are refused, fail, or do not end."""
 import json
 import os
 import pathlib
@@ -19,7 +19,7 @@ NOTED = (ROOT / "ups/solid/two_discs.ups").read_text().replace("<save ", '<save 
 
 
 def dying():
-    """Sod's tube by the paper's method with one particle per cell, which empties a cell and dies."""
+    """Sod's tube by the paper's method with one particle per cell, which empties a cell and fails."""
     text = (ROOT / "ups/mpm/sod_redistribute.ups").read_text()
     start, end = text.index("      <redistribute>"), text.index("</redistribute>") + len("</redistribute>")
     return text[:start] + text[end:]
@@ -50,7 +50,7 @@ class Coverage(unittest.TestCase):
         return json.loads((self.here / "all.json").read_text())
 
     def covered(self, *words):
-        """The scenes of the report, by their names, of a call that was right."""
+        """Returns the scenes in the report of a valid call, by name."""
         code, out, errors = self.run_tool(*words)
         self.assertEqual((code, errors), (0, ""), out)
         return {scene["scene"]: scene for scene in self.known()["scenes"]}

@@ -1,4 +1,4 @@
-"""Archives for tests, as core/output writes them: Sod's shock tube, and heat in 1-D and 2-D."""
+"""Archives for tests in the format of core/output: Sod's shock tube, and heat in 1-D and 2-D."""
 import os
 
 import h5py
@@ -69,7 +69,7 @@ def make_folder(where, name):
 
 
 def make_sod(where, name="sod", count=400, noise=0.0, leave_out=()):
-    """A tube of 100 cells with `count` particles; returns the path of the link."""
+    """Creates a tube of 100 cells with `count` particles; returns the path of the link."""
     folder = make_folder(where, name)
     outputs = [(0, 0.0), (100, 0.1), (200, 0.2)]
     units = {"p.density": "kg/m^3", "p.velocity": "m/s", "p.pressure": "Pa", "p.internalEnergy": "J/kg"}
@@ -99,7 +99,7 @@ def make_sod(where, name="sod", count=400, noise=0.0, leave_out=()):
 
 
 def make_heat(where, cells=(50, 1, 1), dimension=1, name="heat"):
-    """A cell field, warm in the middle, and a node field; returns the path of the link."""
+    """Creates a cell field, warm in the middle, and a node field; returns the path of the link."""
     folder = make_folder(where, name)
     write_index(folder, [("c.temperature", "cell", 1, "K", ""), ("g.mass", "node", 1, "kg", "")], [],
                 [(0, 0.0), (10, 1.0)],
@@ -114,7 +114,7 @@ def make_heat(where, cells=(50, 1, 1), dimension=1, name="heat"):
 
 
 def make_disks(where, name="disks"):
-    """Two materials of particles in 2-D, and one without any; returns the path of the link."""
+    """Creates two 2-D particle materials and one without particles; returns the path of the link."""
     folder = make_folder(where, name)
     write_index(folder, [("p.x", "particle", 3, "m", "left, right, none"),
                          ("p.density", "particle", 1, "kg/m^3", "left, right, none"),
@@ -137,7 +137,7 @@ def make_disks(where, name="disks"):
 
 
 def make_moving(where, name="moving"):
-    """Particles with ids, of two materials; 20 leaves after the first output, 40 comes with the second."""
+    """Creates particles with ids, of two materials; 20 leaves after the first output, 40 appears with the second."""
     folder = make_folder(where, name)
     write_index(folder, [("p.x", "particle", 3, "m", "a, b"), ("p.particleID", "particle", 1, "1", "a, b"),
                          ("p.mass", "particle", 1, "kg", "a")], [], [(0, 0.0), (1, 1.0)], "Moving")
@@ -160,12 +160,12 @@ BOXES = {1: [(0, 0, 0, 0, 2, 1, 1), (1, 4, 0, 0, 6, 1, 1), (2, 12, 0, 0, 16, 1, 
 
 
 def linear(x):
-    """A density (n,) and a velocity (n, 3) at places (n, 3)."""
+    """Returns a density (n,) and a velocity (n, 3) at positions (n, 3)."""
     return 1 + x @ [2, 3, 5], np.column_stack([x[:, 0], -x[:, 1], 7 + x[:, 2]])
 
 
 def write_boxes(file, boxes, levels, spacing, dimension):
-    """The boxes of a refined grid, and the values in the middles of their cells, box by box."""
+    """Writes the boxes of a refined grid, and the values at their cell centres, box by box."""
     widths = np.array([[h / 2**level if axis < dimension else h for axis, h in enumerate(spacing)]
                        for level in range(levels)])
     file["grid/boxes"], file["grid/levels"] = np.array(boxes, "i4"), widths
@@ -179,7 +179,7 @@ def write_boxes(file, boxes, levels, spacing, dimension):
 
 
 def make_refined(where, dimension=2, name="refined"):
-    """4 coarse cells along x, 2 along y and z: at the first output of one level, at the second of three; a particle."""
+    """4 coarse cells along x, 2 along y and z; one level at the first output, three at the second; one particle."""
     folder = make_folder(where, name)
     write_index(folder, [("c.density", "cell", 1, "kg/m^3", ""), ("c.velocity", "cell", 3, "m/s", "gas"),
                          ("p.x", "particle", 3, "m", "gas")], [], [(0, 0.0), (10, 1.0)], "Refined", 2)
@@ -193,6 +193,6 @@ def make_refined(where, dimension=2, name="refined"):
 
 
 def make_all(where):
-    """One archive of each kind, by name."""
+    """Creates one archive of each kind and returns them by name."""
     return {"sod": make_sod(where), "plate": make_heat(where, (6, 4, 1), 2, "plate"),
             "box": make_heat(where, (6, 4, 3), 3, "box"), "disks": make_disks(where), "moving": make_moving(where)}

@@ -5,7 +5,7 @@ import unittest
 
 
 class InFolder(unittest.TestCase):
-    """`folder` is there before the first test of the class, and gone after the last."""
+    """`folder` exists before the first test of the class and is removed after the last."""
 
     @classmethod
     def setUpClass(cls):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `cmake --install` puts somewhere works there, also after a move, and repositories outside build on it.
+"""The files of `cmake --install` work where installed, also after a move; other repositories build on them.
 
 Installs this build; a repository of `tools/new_component --outside` is compiled without optimisation.
 """
@@ -33,7 +33,7 @@ class Install(unittest.TestCase):
         cls.sus = cls.prefix / "bin/sus"
 
     def run_away(self, command, **environment):
-        """Runs a command without the libraries of this build on its path."""
+        """Runs a command without this build's libraries on its path."""
         environment["LD_LIBRARY_PATH"] = ""
         return modules.run(command, self.here, **environment)
 

@@ -29,7 +29,7 @@ class Interpreter(unittest.TestCase):
         return path
 
     def add_python(self, folder, library_path):
-        """A python3 in a folder that finds the libraries of `library_path`, and notes that it was started."""
+        """Creates a python3 in a folder that finds the libraries of `library_path` and records that it was started."""
         path = self.write(f"{folder}/python3", f"#!/bin/sh\necho started >> {self.folder.name}/started\n"
                                                f"PYTHONPATH={library_path} exec {sys.executable} \"$@\"\n")
         os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tools/new_component makes a component that compiles, is a module that sus loads, runs its scene and passes its tests.
+"""tools/new_component makes a component that compiles, loads as a module, runs its scene and passes its tests.
 
 Works on a copy of the sources; compiles the new files alone and links them with the core of this build.
 """
@@ -30,13 +30,13 @@ class NewComponent(unittest.TestCase):
         cls.folder.cleanup()
 
     def compile(self, source):
-        """Object file of a source of the copy."""
+        """Returns the object file of a source of the copy."""
         target = self.copy / (source.replace("/", "_") + ".o")
         modules.must([*modules.compile_command(self.copy), "-o", target, "-c", self.copy / source], modules.BUILD)
         return target
 
     def component(self):
-        """Object files of the new component, and the file of its module."""
+        """Returns the object files of the new component, and its module file."""
         folder = self.copy / "components/shallow_water"
         sources = sorted(str(file.relative_to(self.copy)) for file in folder.glob("*.cpp"))
         self.assertEqual([pathlib.Path(source).name for source in sources], ["module.cpp", "shallow_water.cpp"])

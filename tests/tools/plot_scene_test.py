@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tools/plot with a scene in place of an archive, which it runs first."""
+"""Tests of tools/plot with a scene, which it runs first, in place of an archive."""
 import os
 import pathlib
 import subprocess
@@ -34,7 +34,7 @@ exit 4
 
 class Scenes(InFolder):
     def plot(self, *words, sus=SUS):
-        """Exit code, standard output and standard error of tools/plot, in a folder of its own."""
+        """Returns exit code, standard output and standard error of tools/plot, run in a folder of its own."""
         done = subprocess.run([sys.executable, ROOT / "tools/plot", *words], capture_output=True, text=True,
                               cwd=self.folder, env={**os.environ, "SUS": sus})
         self.assertNotIn("Traceback", done.stderr)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of what tools/plot offers: slices, ranges, differences, films, three dimensions, following a run."""
+"""Tests of the features of tools/plot: slices, ranges, differences, films, three dimensions, following a run."""
 import importlib.util
 import os
 import pathlib
@@ -38,7 +38,7 @@ class WithArchives(InFolder):
             setattr(cls, name, archive)
 
     def plot(self, *words, path=None):
-        """Exit code, standard output and standard error of tools/plot, in a folder of its own."""
+        """Returns exit code, standard output and standard error of tools/plot, run in a folder of its own."""
         environment = {**os.environ, **({"PATH": path} if path else {})}
         done = subprocess.run([sys.executable, ROOT / "tools/plot", *words], capture_output=True, text=True,
                               cwd=self.folder, env=environment)
@@ -46,7 +46,7 @@ class WithArchives(InFolder):
 
     @staticmethod
     def texts(figure):
-        """Titles and labels of all panels."""
+        """Returns titles and labels of all panels."""
         panels = figure.figure.axes
         return [text for panel in panels
                 for text in (panel.get_xlabel(), panel.get_ylabel(), panel.get_title(loc="left"))]
@@ -89,7 +89,7 @@ class Slices(WithArchives):
 
 class Values(WithArchives):
     def colours(self, archive, variables, **choices):
-        """The scale and the colour map of the first panel."""
+        """Returns scale and colour map of the first panel."""
         figure = Figure(Archive(archive), variables=variables, view=View(**choices))
         panel = figure.figure.axes[0]
         drawn = (panel.images or panel.collections)[0]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""On a processor without the instructions for which it was compiled sus ends with a sentence, not by SIGILL."""
+"""On a processor without the instructions it was compiled for, sus ends with a message, not with SIGILL."""
 import pathlib
 import shutil
 import signal
@@ -31,7 +31,7 @@ class Processor(unittest.TestCase):
         self.assertRegex(done.stderr, SENTENCE.format(instructions))
 
     def build(self, here, march):
-        """A program with the check, and a library, all but its main for a processor."""
+        """Builds a program with the check, and a library; all but its main is compiled for a given processor."""
         for name, text in (("library.cpp", LIBRARY), ("main.cpp", PROGRAM)):
             pathlib.Path(here, name).write_text(text)
         modules.must(["g++", "-O3", "-mavx2", "-shared", "-fPIC", "-o", f"{here}/liblibrary.so", f"{here}/library.cpp"])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tools/projection: the figure of the mass projection's error."""
+"""Tests of tools/projection, which plots the error of the mass projection."""
 import os
 import pathlib
 import re

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of the error of a study by the change of a global."""
+"""Tests of a study whose error is the change of a global."""
 import pathlib
 import sys
 import tempfile

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tools/study: it runs what has changed, from any folder, and touches nothing that is not its own."""
+"""Tests of tools/study: it reruns what has changed, from any folder, and leaves other files untouched."""
 import json
 import pathlib
 import subprocess

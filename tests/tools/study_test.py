@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tools/study and the library behind it: what it runs, what it writes, where the time went."""
+"""Tests of tools/study and its library: the runs, the files written, and the timings."""
 import csv
 import json
 import os

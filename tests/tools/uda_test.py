@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tools/uda, tools/plot and the library behind them: python3 tests/tools/uda_test.py"""
+"""Tests of tools/uda, tools/plot and their library: python3 tests/tools/uda_test.py"""
 import os
 import shutil
 import subprocess
@@ -22,7 +22,7 @@ from tushar.figure import Figure
 
 
 def run(tool, *arguments):
-    """Exit code, standard output and standard error of a tool."""
+    """Returns exit code, standard output and standard error of a tool."""
     done = subprocess.run([sys.executable, os.path.join(TOOLS, tool), *arguments], capture_output=True, text=True,
                           encoding="utf-8")
     return done.returncode, done.stdout, done.stderr

@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// The diffusive fluxes through the rim of the level, Pa and W/m².
+/// The diffusive fluxes of momentum [Pa] and energy [W/m²] through the rim of the level.
 template <int D>
 struct DiffusionRims {
   RimFlux<Vec<D>> momentum;
@@ -17,35 +17,36 @@ struct DiffusionRims {
   }
 };
 
-/// Computes T [K], instead of the density, and v, for the cells of `rows` that are on the grid or are images of such
-/// cells.
+/// Computes T [K], which takes the place of the density, and v for the cells of `rows` that are on the grid or are
+/// periodic images of such cells.
 template <int D>
 void findTemperature(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& rows);
 
-/// The diffusive fluxes through the lower faces of `faces` across an axis, Pa and W/m², of T and v around them.
+/// Computes the diffusive fluxes through the lower faces of `faces` across an axis [Pa and W/m²], from T and v around
+/// them.
 template <int D>
 void computeDiffusiveFluxes(const Diffusion& diffusion, const Level& level, const Box& faces, int axis, Rows<D>& w,
                             Rows<D>& flux);
 
-/// Adds the inflow to the cells of a block across an axis; `ratio` is dt / h [s/m].
+/// Adds to the cells of a block the net inflow across an axis; `ratio` is dt / h [s/m].
 template <int D>
 void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellView<Vec<D>> momentum,
                  CellView<double> energy);
 
-/// Adds the changes due to viscosity and heat conduction in a step, from the state [kg/m³, kg/(m² s), J/m³] and the
-/// time at its start.
+/// Adds the changes due to viscosity and heat conduction in a step, given the state [kg/m³, kg/(m² s), J/m³] and the
+/// time at the start of the step.
 ///
-/// Through a face across d flow -tau_d of momentum and -(tau_d . v + k dT/dx_d) of energy, tau = mu (grad v +
-/// (grad v)^T - 2/3 div v I): Newton's and Fourier's laws, by centred differences. What leaves a cell enters its
-/// neighbour, so mass, momentum and energy are kept. One step of Euler's method: of first order in time.
-/// Sides: no stress along a plane of symmetry, and no heat through it. The gas sticks to a wall with a `Velocity`; a
-/// `Temperature` is that of the wall, without one it is adiabatic. Nothing diffuses through an open side.
+/// The fluxes through a face across d are -tau_d for momentum and -(tau_d . v + k dT/dx_d) for energy, where tau = mu
+/// (grad v + (grad v)^T - 2/3 div v I). These are Newton's and Fourier's laws, by centred differences. They conserve
+/// mass, momentum and energy. The step is one of Euler's method, of first order in time. Along a symmetry plane there
+/// is no stress, and no heat passes through it. The gas sticks to a wall with a `Velocity`; a `Temperature` is that of
+/// the wall, and a wall without it is adiabatic. There is no diffusion through an open side.
 template <int D>
 void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, const OldState<D>& old, double time,
                   double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
                   const DiffusionRims<D>& rims);
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / h_d²), where nu is the largest diffusivity.
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / h_d²), where nu is the largest diffusivity.
 template <int D>
 void limitDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, double cfl,
                     CellView<const double> density, CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,

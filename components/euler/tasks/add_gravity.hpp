@@ -4,9 +4,9 @@
 
 namespace tushar::euler {
 
-/// The change of a cell by gravity g [m/s²] in a step: rho g dt is added to the momentum and g . (m + m') / 2 dt to the
-/// energy, m and m' the momentum before and after. The kinetic energy changes by the work of gravity, the internal
-/// energy does not.
+/// Changes a cell by gravity g [m/s²] in a step: adds rho g dt to the momentum, and g . (m + m') / 2 dt to the energy,
+/// where m and m' are the momentum before and after. So the kinetic energy changes by the work of gravity, and the
+/// internal energy stays constant.
 template <int D>
 void fall(const Vec<D>& gravity, double density, double dt, Vec<D>& momentum, double& totalEnergy) {
   const Vec<D> half = 0.5 * dt * density * gravity;
@@ -14,7 +14,7 @@ void fall(const Vec<D>& gravity, double density, double dt, Vec<D>& momentum, do
   momentum += 2 * half;
 }
 
-/// Adds gravity in all cells.
+/// Adds gravity to all cells.
 template <int D>
 void addGravity(const Patch& patch, const Vec3& gravity, CellView<const double> density, double dt,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
@@ -23,7 +23,7 @@ void addGravity(const Patch& patch, const Vec3& gravity, CellView<const double> 
              [&](const Index<D>& cell) { fall<D>(g, density[cell], dt, momentum[cell], totalEnergy[cell]); });
 }
 
-/// Adds a force per volume [N/m³], the same in all cells.
+/// Adds to all cells the effect of a uniform force per volume [N/m³] in a step.
 template <int D>
 void addForce(const Patch& patch, const Vec3& force, CellView<const double> density, double dt,
               CellView<Vec<D>> momentum, CellView<double> totalEnergy) {

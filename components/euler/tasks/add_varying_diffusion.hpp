@@ -5,7 +5,7 @@
 
 namespace tushar::euler {
 
-/// A function that returns the diffusing gas of each cell.
+/// A function that returns the diffusion properties of each cell.
 template <int D>
 auto diffusingCells(const Level& level, const Gas& gas, const VaryingDiffusion& how,
                     const StateViews<D, const double>& old) {
@@ -22,7 +22,7 @@ auto diffusingCells(const Level& level, const Gas& gas, const VaryingDiffusion& 
   };
 }
 
-/// Like addDiffusion, for varying viscosity and conduction.
+/// Adds the changes due to viscosity and heat conduction in a step, like addDiffusion, for varying coefficients.
 template <int D>
 void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, const OldState<D>& old,
                          double time, double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
@@ -32,8 +32,8 @@ void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffus
   diffuse<D>(patch, diffuser, dt, diffusingCells<D>(patch.level(), gas, how, old), newMomentum, newTotalEnergy, rims);
 }
 
-/// dt is cfl divided by the largest combined rate of crossing cells and of diffusion. `soundSpeedKnob`: how much of the
-/// speed of sound counts.
+/// Computes dt as cfl divided by the largest rate at which flow and diffusion together cross a cell. `soundSpeedKnob`
+/// is the fraction of the speed of sound that is included.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, double cfl,
                            double soundSpeedKnob, const OldState<D>& old, double time, Minimum& dt) {

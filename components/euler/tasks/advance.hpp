@@ -6,8 +6,8 @@
 
 namespace tushar::euler {
 
-/// The fluxes of one of several gases through the rim of the level: of its mass, kg/(m² s), and its volume fraction,
-/// m/s.
+/// The fluxes of one of several gases through the rim of the level: of its mass [kg/(m² s)] and of its volume fraction
+/// [m/s].
 struct GasRims {
   RimFlux<double> mass, share;
 
@@ -33,20 +33,20 @@ struct RimFluxes {
   }
 };
 
-/// One step on a patch: the body of the task, with the gas, the old state [kg/m³, kg/(m² s), J/m³], its time, the time
-/// step [s], the new state, and its fluxes through the rim of the level.
+/// The body of the task that performs one step on a patch. It takes the gas, the old state [kg/m³, kg/(m² s), J/m³] and
+/// its time, the time step [s], the new state, and the fluxes through the rim of the level.
 ///
-/// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, all axes at once (unsplit). First order: F of the cells on
-/// both sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis; what the fluxes of a cell's own
-/// face values change in half a step is added to each of them; F of what then stands on both sides of a face. A cell
-/// whose values at a face would lose their positive density or p + p_inf is taken as constant for this step.
-/// Source: B. van Leer, SIAM J. Sci. Stat. Comput. 5 (1984) 1; Toro, sections 6.3, 14.4 and 16.5.
+/// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, for all axes together (unsplit). First order: F follows from
+/// the cells on both sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis give values at the
+/// faces; the fluxes of these values advance them by half a step; F follows from the advanced values on both sides of a
+/// face. A cell with a face value whose density or p + p_inf would not be positive is treated as constant in this step.
+/// Sources: B. van Leer, SIAM J. Sci. Stat. Comput. 5 (1984) 1; Toro, sections 6.3, 14.4 and 16.5.
 template <int D>
 using Advance = void (*)(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
                          const NewState<D>& fresh, const RimFluxes<D>& rims);
 
-/// The body for a method and the law of a gas; each combination is compiled separately, so that no loop over cells
-/// branches on them. A gas with a law of its own has HLLC's flux, and van Leer's slopes or none.
+/// The body of the task for a method and the law of a gas. Each combination is compiled separately, so that no loop
+/// over cells branches on them. For a gas with its own law, the flux is HLLC's, and the slopes are van Leer's or none.
 template <int D>
 Advance<D> chooseAdvance(const Method& method, const Gas& gas = {});
 

@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-// Steps of blocks by HLLC's flux, for components that are built from `euler`, which compiles them.
+// Steps of blocks with HLLC's flux, for components that are built from `euler`; `euler` compiles them.
 TUSHAR_BLOCK_INSTANCES(extern, 1)
 TUSHAR_BLOCK_INSTANCES(extern, 2)
 TUSHAR_BLOCK_INSTANCES(extern, 3)

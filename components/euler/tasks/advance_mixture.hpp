@@ -5,7 +5,7 @@
 
 namespace tushar::euler {
 
-/// The variables of each of several gases that a step reads.
+/// Views of the variables of one of several gases that a step reads.
 struct OldGas {
   CellView<const double> mass, share;
 
@@ -13,14 +13,14 @@ struct OldGas {
     return {.mass = take(requiresOld(c::gasMass, ghost)), .share = take(requiresOld(c::gasShare, ghost))};
   }
 };
-/// The variables of each of several gases that a step computes.
+/// Views of the variables of one of several gases that a step computes.
 struct NewGas {
   CellView<double> mass, share;
 
   static NewGas from(auto& take) { return {.mass = take(computes(c::gasMass)), .share = take(computes(c::gasShare))}; }
 };
 
-/// The law of the gases in a cell: `gases` have the laws, `held` the volume fractions.
+/// The law of the gases in a cell: `gases` contains their laws, `held` the volume fractions.
 template <class Held, int D>
 MixedGas mixedAt(const std::vector<Settings>& gases, const std::vector<Held>& held, const Index<D>& cell) {
   MixedGas mixed;
@@ -42,8 +42,8 @@ Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
   return mixture;
 }
 
-/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one; `held` has the
-/// shares of each gas.
+/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one. `held` contains the
+/// volume fractions of each gas.
 template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state);
@@ -71,11 +71,12 @@ MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>&
   return views;
 }
 
-/// One step of several gases: that of Advance, of all together, with limited slopes of the mass and the share of each
-/// in place of the density's. Shares go with the velocity of the contact at faces, so that where velocity and pressure
-/// are uniform they stay so. Slopes of three gases need not add up; they are scaled until the shares at a face add up
-/// to 1, and the densities of the gases stay as they are. Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181
-/// (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, of shares with HLLC.
+/// One step of several gases. It is that of Advance for their mixture, but with limited slopes of the mass and the
+/// volume fraction of each gas instead of the density. Faces advect volume fractions with the velocity of the contact,
+/// so that uniform velocity and pressure remain uniform. The limited fractions of three gases at a face need not add up
+/// to 1. They are scaled until they do, at constant densities of the gases. Sources: G. Allaire, S. Clerc & S. Kokh, J.
+/// Comput. Phys. 181 (2002) 577; for volume fractions with HLLC, E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006)
+/// 715.
 template <int D>
 using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
                                 const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
@@ -86,12 +87,12 @@ using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>&
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 
-/// Rescales volume fractions where fluxes through the rim of a level were corrected, because there they no longer add
-/// up to 1. Divides them by their sum, the correction of the flux of volume. Other cells stay as they are.
+/// Divides volume fractions by their sum in the cells where it is not 1, because fluxes through the rim of a level were
+/// corrected there. The sum contains the correction of the flux of volume. Other cells are unchanged.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 
-/// The variables of each of several gases that a regridding changes.
+/// Views of the variables of one of several gases that regridding changes.
 struct ChangedGas {
   CellView<double> mass, share;
 
@@ -99,14 +100,14 @@ struct ChangedGas {
     return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
   }
 };
-/// Like mendNewCells, for several gases. Since the values of new cells are interpolated separately, the density is set
-/// to the sum of the masses, and the volume fractions are rescaled to add up to 1. Where that makes no gas, all
-/// children of a cell get their means.
+/// Replaces impossible new cells of several gases, like mendNewCells. Since the values of new cells are interpolated
+/// separately, it first sets the density to the sum of the masses, and scales the volume fractions so that they add up
+/// to 1. If the result is not a possible state, all children of the parent cell get their mean.
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d), with rho c² = (p (1 + G) + S) / G.
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d), with rho c² = (p (1 + G) + S) / G.
 /// Throws NumericalError where a state is impossible.
 template <int D>
 void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, double cfl, const OldState<D>& old,

@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// Whether the new states of a block are valid, checked while they are in the cache.
+/// Whether the new states of a block are possible; to be called while they are in the cache.
 template <int D, class G>
 bool canBe(const G& gas, const Box& block, const StateViews<D, double>& fresh) {
   bool fine = true;
@@ -17,8 +17,8 @@ bool canBe(const G& gas, const Box& block, const StateViews<D, double>& fresh) {
   return fine;
 }
 
-/// A step of all cells of a patch, one part after the other; `finish(part)` is called while its new values are in the
-/// cache. In three dimensions the parts are columns along z.
+/// Performs a step for all cells of a patch, one part after the other; calls `finish(part)` while its new values are in
+/// the cache. In three dimensions the parts are columns along z.
 template <int D, class Flux, class Shape, class G, class Finish>
 void advanceCells(const G& gas, const Level& level, const GhostRules<D>& rules, const Box& cells, double dt,
                   const ViewsOf<D, kGases<G>, const double>& old, const ViewsOf<D, kGases<G>, double>& fresh,
@@ -39,7 +39,7 @@ void advanceCells(const G& gas, const Level& level, const GhostRules<D>& rules, 
   }
 }
 
-/// The Advance<D> for one method and the law of a gas.
+/// Performs one step on a patch, for one method and the law of a gas; chooseAdvance returns it.
 template <int D, class Flux, class Shape, class Law>
 void advance(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
              const NewState<D>& fresh, const RimFluxes<D>& rims) {

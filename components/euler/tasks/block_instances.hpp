@@ -3,8 +3,9 @@
 #include "components/euler/mixture.hpp"
 #include "components/euler/tasks/advance_patch.hpp"
 
-// What other components call for blocks of cells, for each number of dimensions, law of a gas and kind of face values.
-// TUSHAR_BLOCK_INSTANCES(, D) compiles it; TUSHAR_BLOCK_INSTANCES(extern, D) says that it is compiled elsewhere.
+// The functions for blocks of cells that other components call, for each number of dimensions, law of a gas and kind of
+// face values. TUSHAR_BLOCK_INSTANCES(, D) compiles them; TUSHAR_BLOCK_INSTANCES(extern, D) says that they are compiled
+// elsewhere.
 
 #define TUSHAR_BLOCK_FLUXES(WORD, D, AXIS, K)                                                                   \
   WORD template void addFluxes<D, AXIS, K>(double, const Box&, const ViewsOf<D, K, const double>&, Rows<D, K>&, \

@@ -7,11 +7,11 @@
 
 namespace tushar::euler {
 
-/// Cells are constant: the values at their faces are those of the cell.
+/// Constant reconstruction: the values at a cell's faces are those of the cell.
 struct Constant {
   static constexpr int reach = 1;
 };
-/// Cells have limited slopes: the values at their faces are those half a step later.
+/// Linear reconstruction with limited slopes: the values at a cell's faces are advanced by half a step.
 template <class Limited>
 struct Sloped {
   static constexpr int reach = 2;
@@ -41,9 +41,9 @@ struct Work {
   }
 
   Rows<D, K> w;                          ///< primitive values of cells
-  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, per axis; none if cells are constant
-  Rows<D, K> flux;                       ///< through lower faces, of one axis at a time
-  std::vector<double> least;             ///< for a row: least density and p + p_inf at faces
+  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, for each axis; empty if cells are constant
+  Rows<D, K> flux;                       ///< fluxes through lower faces, across one axis at a time
+  std::vector<double> least;             ///< smallest density and p + p_inf at faces, for one row
 
  private:
   /// How many planes it holds of faces, and of upper faces along the last axis; 0: all.
@@ -59,7 +59,7 @@ struct Work {
   }
 };
 
-/// rho, v, p of the cells of a box that are on the grid or are images of such cells.
+/// Computes rho, v, p of the cells of a box that are on the grid or are periodic images of such cells.
 template <int D, class G>
 void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, kGases<G>, const double>& old,
              Rows<D, kGases<G>>& w) {
@@ -74,7 +74,7 @@ void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, 
   });
 }
 
-/// Adds the half step's change of a row across an axis, and sets its limited values at the faces.
+/// Adds the half-step change of a row across an axis, and sets its limited values at the faces.
 template <int D, class Limited, int Axis, class G>
 void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D, kGases<G>>& work) {
   const auto next = Index<D>::unit(Axis);
@@ -124,7 +124,7 @@ void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D
   });
 }
 
-/// Fluxes through the lower faces of the cells of `faces` across an axis.
+/// Computes fluxes through the lower faces of the cells of `faces` across an axis.
 template <int D, class Flux, class Shape, int Axis, class G>
 void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Rows<D, kGases<G>>& flux) {
   constexpr bool constant = Shape::reach == 1;
@@ -136,7 +136,7 @@ void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Row
   });
 }
 
-/// Adds the inflow of each of several gases across an axis.
+/// Adds the net inflow of each gas across an axis, for several gases.
 template <int D, int Axis, int K>
 void addFluxesOfEach(double ratio, const Index<D>& first, int count, const MixtureViews<D, const double>& old,
                      Rows<D, K>& flux, const MixtureViews<D, double>& fresh) {
@@ -151,7 +151,7 @@ void addFluxesOfEach(double ratio, const Index<D>& first, int count, const Mixtu
   }
 }
 
-/// Adds the inflow across an axis; the first axis starts from the old state.
+/// Adds the net inflow across an axis: for the first axis, to the old state; for the others, to the new one.
 template <int D, int Axis, int K>
 void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
                const ViewsOf<D, K, double>& fresh) {
@@ -169,7 +169,7 @@ void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>
   });
 }
 
-/// Stores the fluxes across an axis at the rim of the level.
+/// Stores the fluxes across an axis through the rim of the level.
 template <int D, int K>
 void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>& flux) {
   if (rims.mass.empty()) return;
@@ -202,7 +202,7 @@ void sweep(const G& gas, const Level& level, const Box& block, double dt,
   addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
 }
 
-/// A step of a block of cells.
+/// Performs a step for a block of cells.
 template <int D, class Flux, class Shape, class G>
 void advanceBlock(const G& gas, const Level& level, const GhostRules<D>& rules, const Box& block, double dt,
                   const ViewsOf<D, kGases<G>, const double>& old, Work<D, kGases<G>>& work,

@@ -11,8 +11,8 @@
 
 namespace tushar::euler {
 
-/// Whether the states of a row of cells are valid: rho > 0 and, p + p_inf > 0, checked without division as rho (E -
-/// p_inf) > |rho v|² / 2; all values must be finite.
+/// Whether the states of a row of cells are possible: all values are finite, rho > 0 and p + p_inf > 0. The last
+/// condition is checked without division, as rho (E - p_inf) > |rho v|² / 2.
 template <int D>
 bool canBe(const StiffenedGas& gas, const double* density, const double* momentum, const double* totalEnergy,
            int count) {
@@ -26,7 +26,8 @@ bool canBe(const StiffenedGas& gas, const double* density, const double* momentu
   }
   return broken == 0;
 }
-/// The same for a gas with its own law, whose heat must be positive.
+/// Whether the states of a row of cells are possible for a gas with its own law: its density is positive and finite,
+/// and the law allows its energy.
 template <int D, class Law>
 bool canBe(const Law& law, const double* density, const double* momentum, const double* totalEnergy, int count) {
   for (int i = 0; i < count; ++i) {
@@ -42,19 +43,19 @@ bool canBe(const Gas& gas, const double* density, const double* momentum, const 
   return gas.withLaw([&](const auto& law) { return canBe<D>(law, density, momentum, totalEnergy, count); });
 }
 
-/// E - rho v² / 2 of a cell [J/m³].
+/// Internal energy per volume of a cell, E - rho v² / 2 [J/m³].
 template <int D, class T>
 double internalEnergyIn(const StateViews<D, T>& state, const Index<D>& cell) {
   return state.totalEnergy[cell] - 0.5 * state.momentum[cell].squaredNorm() / state.density[cell];
 }
 
-/// p of a cell [Pa].
+/// Pressure of a cell [Pa].
 template <int D, class T>
 double pressureIn(const Gas& gas, const StateViews<D, T>& state, const Index<D>& cell) {
   return gas.pressure(state.density[cell], internalEnergyIn<D, T>(state, cell));
 }
 
-/// Throws NumericalError for a cell with an invalid state; `before` is the state at the start of the step, with at
+/// Throws NumericalError for a cell with an impossible state. `before` is the state at the start of the step, with at
 /// least one ghost cell, or null.
 template <int D, class T>
 [[noreturn]] void refuseState(const Level& level, const Gas& gas, const Index<D>& cell, const StateViews<D, T>& state,
@@ -94,7 +95,7 @@ template <int D, class T>
   throw NumericalError(text, "", label, level.cellNumber<D>(cell));
 }
 
-// Compiled in `euler` alone, for the components that are built from it, too.
+// Compiled only in `euler`, also for the components that are built from it.
 #define TUSHAR_REFUSE_STATE(WORD, D, T)                                                              \
   WORD template void refuseState(const Level&, const Gas&, const Index<D>&, const StateViews<D, T>&, \
                                  const StateViews<D, const double>*);
@@ -103,7 +104,7 @@ TUSHAR_REFUSE_STATES(extern, 1)
 TUSHAR_REFUSE_STATES(extern, 2)
 TUSHAR_REFUSE_STATES(extern, 3)
 
-/// Throws NumericalError for the first cell of the patch with an invalid state, if there is one.
+/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one.
 template <int D, class T>
 void refuseBroken(const Patch& patch, const Gas& gas, const StateViews<D, T>& state,
                   const StateViews<D, const double>* before) {

@@ -4,12 +4,12 @@
 
 namespace tushar::euler {
 
-/// A step of columns of cells along z, plane after plane, bitwise equal to advanceBlock. It stores only the planes that
-/// it needs at a time, and computes nothing twice along z.
+/// Performs a step for columns of cells along z, plane after plane; the result is bitwise that of advanceBlock. It
+/// stores only the planes that it needs at a time, and computes nothing twice along z.
 template <class Flux, class Shape, class G>
 class ColumnStep {
  public:
-  /// For columns no wider than `extents`.
+  /// Allocates space for columns no wider than `extents`.
   ColumnStep(const G& gas, const Level& level, const GhostRules<3>& rules, const Index3& extents, double dt,
              const ViewsOf<3, kGases<G>, const double>& old, const ViewsOf<3, kGases<G>, double>& fresh,
              const RimFluxes<3>& rims)
@@ -23,7 +23,7 @@ class ColumnStep {
         work_(Work<3, kGases<G>>::ofColumns(cellsAcross(extents), Shape::reach)),
         rising_(cellsAcross(extents), 2) {}
 
-  /// Calls `finish(plane)` for each plane of cells when it has its new state.
+  /// Calls `finish(plane)` for each plane of cells after its new state has been computed.
   template <class Finish>
   void run(const Box& column, Finish&& finish) {
     const Box around = column.grown(Shape::reach, 3);
@@ -56,22 +56,22 @@ class ColumnStep {
     box.upper[z] = end;
     return box;
   }
-  /// The gas before the step in some planes, including those outside the grid.
+  /// Loads the state before the step in some planes, including planes outside the grid.
   void take(const Box& planes) {
     recover<3>(gas_, level_, planes, old_, work_.w);
     fillBeyondGrid<3>(level_, rules_, work_.w, planes);
   }
-  /// The fluxes through the lower faces of a plane across z.
+  /// Computes the fluxes across z through the lower faces of a plane.
   void rise(const Box& plane) {
     computeFluxes<3, Flux, Shape, z>(gas_, plane, work_, rising_);
     keepAtRim<3>(rims_, plane, z, rising_);
   }
-  /// The change in a plane due to the fluxes across x and y.
+  /// Computes the change of a plane due to the fluxes across x and y.
   void cross(const Box& plane) {
     sweep<3, Flux, Shape, 0>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
     sweep<3, Flux, Shape, 1>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
   }
-  /// The change in a plane due to the fluxes across z.
+  /// Adds the change of a plane due to the fluxes across z.
   void add(const Box& plane) {
     rims_.masses.keep(plane, z, rising_);
     addFluxes<3, z>(dt_ / level_.spacing(z), plane, old_, rising_, fresh_);
@@ -85,7 +85,7 @@ class ColumnStep {
   const ViewsOf<3, kGases<G>, double>& fresh_;
   const RimFluxes<3>& rims_;
   Work<3, kGases<G>> work_;
-  Rows<3, kGases<G>> rising_;  ///< fluxes across z, of two planes
+  Rows<3, kGases<G>> rising_;  ///< fluxes across z through the faces of two planes
 };
 
 }  // namespace tushar::euler

@@ -4,8 +4,8 @@
 
 namespace tushar::euler {
 
-/// The largest sum_d (|v_d| + c) / h_d [1/s] in a gas with its own law. Throws NumericalError where a state is
-/// impossible.
+/// Returns the largest sum_d (|v_d| + c) / h_d [1/s] on the patch, for a gas with its own law. Throws NumericalError
+/// where a state is impossible.
 template <int D>
 double greatestRate(const Patch& patch, const Gas& gas, const StateViews<D, const double>& state) {
   refuseBroken<D, const double>(patch, gas, state, nullptr);
@@ -23,7 +23,7 @@ double greatestRate(const Patch& patch, const Gas& gas, const StateViews<D, cons
   return greatest;
 }
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d).
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d).
 /// Throws NumericalError where a density, or p + p_inf, is not positive.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, CellView<const double> density,

@@ -5,7 +5,7 @@
 
 namespace tushar::euler {
 
-/// Mass in the patch [kg].
+/// Computes the mass in the patch [kg].
 template <int D>
 void sumMass(const Patch& patch, CellView<const double> density, Sum& mass) {
   WideSum sum(mass);
@@ -13,7 +13,7 @@ void sumMass(const Patch& patch, CellView<const double> density, Sum& mass) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * density[cell]); });
 }
 
-/// Momentum in the patch [kg m/s].
+/// Computes the momentum in the patch [kg m/s].
 template <int D>
 void sumMomentum(const Patch& patch, CellView<const Vec<D>> momentum, VectorSum& total) {
   WideSum x(total.x), y(total.y), z(total.z);
@@ -26,7 +26,7 @@ void sumMomentum(const Patch& patch, CellView<const Vec<D>> momentum, VectorSum&
   });
 }
 
-/// Internal and kinetic energy in the patch [J].
+/// Computes the internal and kinetic energy in the patch [J].
 template <int D>
 void sumEnergy(const Patch& patch, CellView<const double> totalEnergy, Sum& energy) {
   WideSum sum(energy);
@@ -34,7 +34,7 @@ void sumEnergy(const Patch& patch, CellView<const double> totalEnergy, Sum& ener
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * totalEnergy[cell]); });
 }
 
-/// Kinetic energy in the patch [J].
+/// Computes the kinetic energy in the patch [J].
 template <int D>
 void sumKineticEnergy(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
                       Sum& energy) {
@@ -50,7 +50,7 @@ double internalEnergyPerVolume(double density, const Vec<D>& momentum, double to
   return totalEnergy - 0.5 * momentum.squaredNorm() / density;
 }
 
-/// Smallest density [kg/m³] and internal energy [J/kg] of any cell.
+/// Computes the smallest density [kg/m³] and internal energy [J/kg] of any cell.
 template <int D>
 void findLeast(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
                CellView<const double> totalEnergy, Minimum& leastDensity, Minimum& leastEnergy) {
@@ -60,8 +60,8 @@ void findLeast(const Patch& patch, CellView<const double> density, CellView<cons
   });
 }
 
-/// Sum of m (ln((p + p_inf) / ((gamma - 1) rho)) - (gamma - 1) ln rho) [kg]: entropy over c_v, up to a constant that
-/// depends on the units. Laws have their own.
+/// Computes the sum of m (ln((p + p_inf) / ((gamma - 1) rho)) - (gamma - 1) ln rho) [kg]: the entropy divided by c_v,
+/// up to a constant that depends on the units. A gas with its own law has its own entropy.
 template <int D>
 void sumEntropy(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
                 CellView<const double> totalEnergy, Sum& entropy) {

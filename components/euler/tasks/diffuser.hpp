@@ -8,7 +8,8 @@
 
 namespace tushar::euler {
 
-/// sqrt(2 S : S) [1/s], S the symmetric part of the gradient; `slope(k, d)`: dv_k/dx_d.
+/// Strain rate sqrt(2 S : S) [1/s], where S is the symmetric part of the velocity gradient; `slope(k, d)` returns
+/// dv_k/dx_d.
 template <int D, class Slope>
 double strainOf(Slope&& slope) {
   double gradient[D][D];
@@ -23,7 +24,7 @@ double strainOf(Slope&& slope) {
   return std::sqrt(2 * sum);
 }
 
-/// How fast a cell is crossed, 1/s.
+/// The rates at which flow and diffusion cross a cell [1/s].
 struct Crossing {
   double byFlow = 0, byDiffusion = 0;
 };
@@ -31,21 +32,21 @@ struct Crossing {
 /// The diffusing quantities of a cell, and its coefficients.
 template <int D>
 struct DiffusingCell {
-  State<D> w{};             ///< T, instead of the density, and v
-  Diffusion how;            ///< without eddies
-  double density = 0;       ///< kg/m³
-  double specificHeat = 0;  ///< c_v, J/(kg K)
-  double soundSpeed = 0;    ///< m/s
+  State<D> w{};             ///< T (in place of the density) and v
+  Diffusion how;            ///< viscosity and conductivity without eddies
+  double density = 0;       ///< density [kg/m³]
+  double specificHeat = 0;  ///< specific heat c_v [J/(kg K)]
+  double soundSpeed = 0;    ///< speed of sound [m/s]
 };
 
-/// The diffusive fluxes of blocks of cells whose viscosity and conduction differ: the coefficients at a face are the
-/// means of those of both cells. Eddies smaller than cells add rho (C Delta)² sqrt(2 S : S) to the viscosity, S the
-/// symmetric part of grad v at the face and Delta the cubic root of a cell's volume. Source: J. Smagorinsky, Mon.
-/// Weather Rev. 91 (1963) 99.
+/// Computes the diffusive fluxes of blocks of cells with variable viscosity and conductivity. The coefficients at a
+/// face are the means of those of the cells on both sides. The subgrid model adds rho (C Delta)² sqrt(2 S : S) to the
+/// viscosity, where S is the symmetric part of grad v at the face, and Delta the cube root of a cell's volume. Source:
+/// J. Smagorinsky, Mon. Weather Rev. 91 (1963) 99.
 template <int D>
 class Diffuser {
  public:
-  /// Space for the blocks of a patch; the rules at the sides must outlive this object.
+  /// Allocates space for the blocks of a patch; the rules at the sides must outlive this object.
   Diffuser(const Level& level, const Box& cells, const GhostRules<D>& rules, double eddies)
       : level_(level),
         rules_(rules),
@@ -61,7 +62,7 @@ class Diffuser {
       }
   }
 
-  /// Moves to the cells of `block`; `cellAt(cell)` returns each of them and their neighbours.
+  /// Loads the cells of `block` and their neighbours; `cellAt(cell)` returns the diffusing quantities of a cell.
   template <class CellAt>
   void hold(const Box& block, CellAt&& cellAt) {
     for (Rows<D>* rows : {&w_, &coefficients_, &flux_}) rows->hold(block.grown(1, D));
@@ -77,7 +78,7 @@ class Diffuser {
     fillBeyondGrid<D>(level_, rules_, w_);
     fillBeyondGrid<D>(level_, mirrors_, coefficients_);
   }
-  /// The fluxes through the lower faces of `faces` across an axis, Pa and W/m².
+  /// Computes the fluxes through the lower faces of `faces` across an axis [Pa and W/m²].
   Rows<D>& computeFluxes(const Box& faces, int axis) {
     const Spacing<D> spacing(level_, w_);
     forEach<D>(faces, [&](const Index<D>& face) {
@@ -85,13 +86,13 @@ class Diffuser {
     });
     return flux_;
   }
-  /// T, instead of the density, and v.
+  /// T (in place of the density) and v of the cells.
   const Rows<D>& state() const { return w_; }
   /// Viscosity and conductivity at a face.
   Diffusion atFace(const Index<D>& face, int axis) const {
     return atFace(face, axis, [&] { return strain(face, axis); });
   }
-  /// The same with eddies; a function returns sqrt(2 S : S) there [1/s].
+  /// Viscosity and conductivity at a face, with eddies; `strain()` returns sqrt(2 S : S) at the face [1/s].
   template <class Strain>
   Diffusion atFace(const Index<D>& face, int axis, Strain&& strain) const {
     const Index<D> below = face - Index<D>::unit(axis);
@@ -102,8 +103,9 @@ class Diffuser {
     if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain();
     return here;
   }
-  /// sum_d (|v_d| + k c) / h_d of a cell, and sum_d (nu_below + nu_above) / h_d², where nu is the greatest diffusivity
-  /// at a face, and k the fraction of the speed of sound that is included.
+  /// The rates at which a cell is crossed: sum_d (|v_d| + k c) / h_d by the flow, and sum_d (nu_below + nu_above) /
+  /// h_d² by diffusion. Here nu is the largest diffusivity at a face, and k = `soundSpeedKnob` the fraction of the
+  /// speed of sound that is included.
   Crossing crossingOf(const Index<D>& cell, const DiffusingCell<D>& here, double soundSpeedKnob) const {
     Crossing rate;
     for (int d = 0; d < D; ++d) {
@@ -119,10 +121,10 @@ class Diffuser {
   }
 
  private:
-  /// The numbers of a cell's coefficients.
+  /// Indices of a cell's coefficients.
   enum : std::size_t { viscosity, conductivity, density };
 
-  /// sqrt(2 S : S) at a face [1/s].
+  /// Strain rate sqrt(2 S : S) at a face [1/s].
   double strain(const Index<D>& face, int axis) const {
     const Index<D> below = face - Index<D>::unit(axis);
     return strainOf<D>([&](int k, int d) {
@@ -141,7 +143,7 @@ class Diffuser {
   Rows<D> w_, coefficients_, flux_;
 };
 
-/// Adds diffusion in a step to the cells of a patch, like addDiffusion for constant coefficients.
+/// Adds the diffusion during a step to the cells of a patch: addDiffusion for varying coefficients.
 template <int D, class CellAt>
 void diffuse(const Patch& patch, Diffuser<D>& diffuser, double dt, CellAt&& cellAt, CellView<Vec<D>> momentum,
              CellView<double> totalEnergy, const DiffusionRims<D>& rims) {
@@ -157,7 +159,7 @@ void diffuse(const Patch& patch, Diffuser<D>& diffuser, double dt, CellAt&& cell
   });
 }
 
-/// The greatest rate of crossing a cell of the patch by flow and diffusion [1/s].
+/// The largest rate [1/s] at which flow and diffusion together cross any cell of the patch.
 template <int D, class CellAt>
 double greatestDiffusionRate(const Patch& patch, Diffuser<D>& diffuser, double soundSpeedKnob, CellAt&& cellAt) {
   double greatest = 0;

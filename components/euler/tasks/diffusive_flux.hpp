@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// The place of T in a State, instead of the density; that of the pressure is unused.
+/// The index of T in a State, where it takes the place of the density; the component of the pressure is unused.
 inline constexpr std::size_t kTemperature = kDensity;
 
 /// Distances in memory between neighbours, and 1/h, along each axis.
@@ -21,7 +21,7 @@ struct Spacing {
   }
 };
 
-/// The fluxes through the lower face of place `i` across an axis.
+/// Computes the fluxes across an axis through the lower face of position `i`.
 template <int D>
 State<D> diffusiveFluxAt(const Diffusion& diffusion, const typename Rows<D>::Pointers& w, const Spacing<D>& by,
                          int axis, std::ptrdiff_t i) {

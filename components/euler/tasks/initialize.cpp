@@ -19,11 +19,11 @@ void checkState(const Settings& settings, const GasObject& object, const Vec3& p
                 object.where),
         settings.section + "/geom_object",
         fmt::format("density {:g} kg/m^3, pressure {:g} Pa and velocity ({:g}, {:g}, {:g}) m/s at ({:g}, "
-                    "{:g}, {:g}); the density and the pressure + p_infinity must be positive, and all values finite",
+                    "{:g}, {:g}); expected a positive density and pressure + p_infinity, and finite values",
                     density, pressure, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2])}});
 }
 
-/// The last object that owns a point, or null.
+/// The last object that contains a point; null if no object does.
 const GasObject* objectAt(const Settings& settings, const Vec3& point) {
   const auto& objects = settings.objects;
   const auto object =

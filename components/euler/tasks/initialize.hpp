@@ -11,20 +11,20 @@ namespace tushar::euler {
 template <int D>
 void checkObjects(const Level& level, const Settings& settings);
 
-/// rho, rho v and E at a point, from the last object that owns it; none if no object does. Throws InputError where
-/// density or p + p_inf is not positive or the state not finite.
+/// The initial rho, rho v and E at a point, from the last object that contains it; none if no object does. Throws
+/// InputError where density or p + p_inf is not positive, or the state is not finite.
 template <int D>
 std::optional<State<D>> stateAt(const Level& level, const Settings& settings, const Vec3& point);
 
-/// The volume fraction of a gas at a point, from the last object that owns it; 0 if no object does.
+/// The initial volume fraction of a gas at a point, from the last object that contains it; 0 if no object does.
 double shareAt(const Settings& settings, const Vec3& point);
 
-/// Throws InputError: a cell at `point` has no gas at the start.
+/// Throws the InputError for a cell with the centre `point` that has no gas at the start.
 [[noreturn]] void refuseUncovered(const Settings& settings, const Vec3& point);
 
-/// Sets each cell to the state, at its centre, of the last object that owns the centre (a face belongs to the object
-/// above it). Throws InputError for objects that contain none, where no object does, and where density or p + p_inf is
-/// not positive or the state not finite.
+/// Sets each cell to the state that the last object containing its centre gives there; a face between objects belongs
+/// to the object above it. Throws InputError if an object contains no cell centre, if no object contains a centre, if
+/// density or p + p_inf is not positive, or if the state is not finite.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> density, CellView<Vec<D>> momentum,
                 CellView<double> totalEnergy);

@@ -7,7 +7,8 @@
 
 namespace tushar::euler {
 
-/// Errors of density, velocity, pressure and internal energy of the cells, relative to the exact means over them.
+/// Computes the errors of the cells in density, velocity, pressure and internal energy, relative to the exact cell
+/// means.
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, CellView<const double> density, CellView<const Vec<D>> momentum,

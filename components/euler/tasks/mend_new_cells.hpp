@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// The children of a cell that has been refined.
+/// The children of a refined cell: the finer cells into which it was divided.
 template <int D>
 class Children {
  public:
@@ -42,9 +42,9 @@ class Children {
   Index<D> parent_;
 };
 
-/// Replaces invalid new cells by the mean over their parent. Since density, momentum and energy are interpolated
-/// separately, the pressure next to a jump could be below -p_inf. There all children of the parent get their mean,
-/// which is its state: nothing is lost. `newCells`: boxes of whole parents.
+/// Replaces impossible new cells by the mean over their parent. Since density, momentum and energy are interpolated
+/// separately, the pressure next to a jump could be below -p_inf. In that case, all children of the parent get their
+/// mean, which is the state of the parent, so conservation holds. `newCells` are boxes that consist of whole parents.
 template <int D>
 void mendNewCells(const Patch&, const Gas& gas, const std::vector<Box>& newCells, const ChangedState<D>& state) {
   const auto isFine = [&](const Index<D>& cell) {

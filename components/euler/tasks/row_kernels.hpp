@@ -3,8 +3,8 @@
 #include "components/euler/fluxes.hpp"
 #include "components/euler/rows.hpp"
 
-// The equations, as loops over the cells of a row. No iteration of a loop reads what another one writes, which
-// ivdep tells the compiler; all loops but that of the exact flux vectorise, to the same bits of a cell wherever its row
+// The equations, as loops over the cells of a row. No iteration reads what another one writes, which ivdep tells the
+// compiler. All loops except that of the exact flux are vectorised; the bits of a cell do not depend on where its row
 // begins.
 
 namespace tushar::euler {
@@ -28,7 +28,7 @@ void recoverRow(const G& gas, const double* density, const double* momentum, con
   }
 }
 
-/// w -+ slope / 2 of one number, with limited slopes, from the rows of neighbours below and above.
+/// Computes w -+ slope / 2 for one component, with a limited slope from the rows of the neighbours below and above.
 template <class Limited>
 void reconstructRow(const double* below, const double* w, const double* above, int count, double* lower,
                     double* upper) {
@@ -40,7 +40,7 @@ void reconstructRow(const double* below, const double* w, const double* above, i
   }
 }
 
-/// F of primitive values, across an axis.
+/// Computes the flux F across an axis from primitive values.
 template <int D, int Axis, class G>
 State<D, kGases<G>> fluxOf(const G& gas, const State<D, kGases<G>>& w) {
   FaceState<D, kGases<G>> face{w, conserved<D>(gas, w)[kPressure<D>]};
@@ -48,8 +48,8 @@ State<D, kGases<G>> fluxOf(const G& gas, const State<D, kGases<G>>& w) {
   return fluxOf<D, Axis>(face);
 }
 
-/// Adds the half-step change of a cell due to the fluxes of its own face values across an axis (Toro, section 14.4) to
-/// the change due to the previous axes; `ratio` is dt / 2 h.
+/// Adds to `change` the half-step change of cells due to the fluxes of their own face values across an axis (Toro,
+/// section 14.4); `ratio` is dt / 2 h.
 template <int D, int Axis, class G>
 void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointers<D, kGases<G>>& upper, double ratio,
                  int count, const Pointers<D, kGases<G>>& change) {
@@ -68,8 +68,8 @@ void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointe
   }
 }
 
-/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf (or, for a
-/// law, its heat) found, and below 0 if one of several gases has a negative amount.
+/// Changes primitive values by a change of the conserved ones. Lowers `least` to the smallest density and p + p_inf
+/// found (for a gas with its own law, its heat), and below 0 if one of several gases has a negative amount.
 template <int D, class G>
 void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, const Pointers<D, kGases<G>>& values,
                double* least) {
@@ -86,8 +86,8 @@ void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, co
   }
 }
 
-/// For several gases, whose limited slopes need not add up: scales masses and shares so that the shares add up to 1,
-/// and the density is the sum of the masses.
+/// Scales the masses and volume fractions of several gases so that the fractions add up to 1, and sets the density to
+/// the sum of the masses; limited slopes need not be consistent.
 template <int D, int K>
 void closeRow(int count, const Pointers<D, K>& values) {
 #pragma GCC ivdep
@@ -100,7 +100,7 @@ void closeRow(int count, const Pointers<D, K>& values) {
   }
 }
 
-/// Treats cells whose `least` is not positive as constant: sets the values at both faces to those of the cell.
+/// Makes the cells constant in which `least` is not positive: sets the values at both faces to those of the cell.
 template <int D, int K = 1>
 void flattenRow(const double* least, const Pointers<D, K>& w, int count, const Pointers<D, K>& lower,
                 const Pointers<D, K>& upper) {
@@ -117,17 +117,17 @@ void fluxRow(const G& gas, const Pointers<D, kGases<G>>& below, const Pointers<D
     store<D>(flux, i, fluxOf<D, Axis>(Flux::template solve<D, Axis>(gas, load<D>(below, i), load<D>(above, i))));
 }
 
-/// new = old - ratio (flux of the upper face - flux of the lower face) of one number, `step` apart in old and new,
-/// which may be the same.
+/// Computes new = old - ratio (flux of the upper face - flux of the lower face) for one component. The numbers of
+/// neighbouring cells in `old` and `result` are `step` places apart; both may be the same array.
 inline void updateRow(const double* old, const double* below, const double* above, double ratio, int step, int count,
                       double* result) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) result[i * step] = old[i * step] - ratio * (above[i] - below[i]);
 }
 
-/// The update of a volume fraction, which is not conserved as mass is: z' = z - ratio (F_upper - F_lower - z (v_upper -
-/// v_lower)), where the velocity of a face follows from the fluxes of all volume fractions, which add up to 1. So equal
-/// shares stay equal.
+/// Updates a volume fraction, which is not conserved as mass is: z' = z - ratio (F_upper - F_lower - z (v_upper -
+/// v_lower)). The velocity v of a face is the sum of the fluxes of all volume fractions, since these add up to 1. So
+/// uniform volume fractions stay uniform.
 template <int K>
 void updateShareRow(const double* start, const double* old, const std::array<const double*, K>& below,
                     const std::array<const double*, K>& above, int gas, double ratio, int count, double* result) {

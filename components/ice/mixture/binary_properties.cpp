@@ -10,19 +10,19 @@ using input::Schema;
 
 namespace {
 
-/// `<constants>`, as it is written.
+/// The tag `<constants>`, as written in the scene.
 struct TwoConstants {
   double rhoA = 0, rhoB = 0, cvA = 0, cvB = 0, rA = 0, rB = 0;
   double viscosityA = 0, viscosityB = 0, conductivityA = 0, conductivityB = 0;
 };
 
-/// `<scalar>`: the mass fraction of the second gas.
+/// The tag `<scalar>`: the mass fraction of the second gas.
 struct FractionSection {
   TwoConstants constants;
   std::vector<FractionRegion> regions;
 };
 
-/// The tag with the name of the model.
+/// The tag that has the name of the model.
 struct BinarySection {
   Location where;
   std::string material;
@@ -64,7 +64,7 @@ const Schema<FractionSection>& fractionSchema() {
   static const Schema<FractionSection> schema =
       Schema<FractionSection>("scalar", "The mass fraction of B.")
           .requiredSection("constants", &FractionSection::constants, constantsOfTwo())
-          .list("geom_object", &FractionSection::regions, region, "a region; elsewhere there is A alone", 1)
+          .list("geom_object", &FractionSection::regions, region, "a region; outside the regions there is only A", 1)
           .ignoredAttribute("name", "the mass fraction is saved as scalar-f")
           .ignored("test_conservation", "TotalMass-B is computed if it is saved");
   return schema;
@@ -79,7 +79,7 @@ const Schema<BinarySection>& binarySchema() {
   return schema;
 }
 
-/// The gas in the part of a region of the scene that has a mass fraction of B.
+/// One of the two gases in the part of `region` that belongs to an object of the scene; `part` is its mass fraction.
 euler::GasObject objectOf(const euler::GasObject& common, const FractionRegion& region, const BinaryProperties& of,
                           const BinaryGas& gas, double part) {
   const double f = region.fraction;

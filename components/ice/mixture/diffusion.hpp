@@ -5,11 +5,11 @@
 
 namespace tushar::ice {
 
-/// Diffusion of several gases: each has its viscosity and conductivity, and a cell has their mean, weighted by shares
-/// or, with BinaryProperties, by masses.
+/// Diffusion of several gases, each with its own viscosity and conductivity. A cell has their mean, weighted by volume
+/// fractions or, with BinaryProperties, by masses.
 struct MixtureDiffusion {
-  std::vector<euler::Diffusion> of;  ///< each gas
-  double smagorinsky = 0;            ///< C of eddies smaller than cells
+  std::vector<euler::Diffusion> of;  ///< diffusion of each gas
+  double smagorinsky = 0;            ///< constant C for eddies smaller than cells
   bool byMasses = false;
 
   bool acts() const {
@@ -17,7 +17,7 @@ struct MixtureDiffusion {
   }
 };
 
-/// A function that returns the diffusing gas of each cell.
+/// A function that returns the diffusion properties of each cell.
 template <int D>
 auto diffusingMixture(const Gases& gases, const MixtureDiffusion& how, const euler::OldState<D>& state,
                       const std::vector<euler::OldGas>& held) {
@@ -40,8 +40,8 @@ auto diffusingMixture(const Gases& gases, const MixtureDiffusion& how, const eul
   };
 }
 
-/// Adds the changes by viscosity and conduction in a step for several gases, like euler::addDiffusion for one. Walls
-/// have the conditions of all gases.
+/// Adds the changes due to viscosity and conduction in a step for several gases, like euler::addDiffusion for one. The
+/// conditions at walls are the same for all gases.
 template <int D>
 void addMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDiffusion& how,
                          const euler::OldState<D>& state, const std::vector<euler::OldGas>& held, double time,
@@ -52,8 +52,8 @@ void addMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDi
   euler::diffuse<D>(patch, diffuser, dt, diffusingMixture<D>(gases, how, state, held), momentum, totalEnergy, rims);
 }
 
-/// dt = cfl over the largest combined rate of crossing cells, together with a fraction of the speed of sound, and of
-/// diffusion.
+/// Computes dt as cfl divided by the largest rate at which flow and diffusion together cross a cell. The flow includes
+/// a fraction of the speed of sound.
 template <int D>
 void limitMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDiffusion& how, double cfl,
                            double soundSpeedKnob, const euler::OldState<D>& state,

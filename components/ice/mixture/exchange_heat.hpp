@@ -9,24 +9,24 @@
 
 namespace tushar::ice {
 
-/// The smallest mass fraction of a gas in a cell at which it takes part in heat exchange; below it, its heat is
-/// negligible and its values are too small to divide by.
+/// The mass fraction of a gas in a cell below which the gas takes no part in the heat exchange: its heat is negligible,
+/// and its values are too small to divide by.
 inline constexpr double leastPartOfMass = 1e-30;
 
-/// The participants in the heat exchange of a cell, at most `Most` or any number: bodies in their order, then gases.
-/// All is per volume of the cell; what is absent has the capacity 0.
+/// The participants in the heat exchange of a cell: first the bodies in their order, then the gases. There are at most
+/// `Most` of them, or any number. All quantities are per cell volume; a participant that is absent has the capacity 0.
 template <int Most = Eigen::Dynamic>
 struct WarmThings {
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Most, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Most, Most>;
 
-  Vector mass;           ///< kg/m³
-  Vector capacity;       ///< at constant volume, J/(m³ K)
-  Vector temperature;    ///< K
-  Vector volume;         ///< share of the cell
-  Vector expansion;      ///< m R of gases that share their volume, J/(m³ K); 0 for bodies
-  Vector stiffPressure;  ///< p + p_inf of these gases, Pa
-  Vector given;          ///< additional heat for each, J/m³
+  Vector mass;           ///< mass per volume of the cell [kg/m³]
+  Vector capacity;       ///< heat capacity at constant volume, per volume of the cell [J/(m³ K)]
+  Vector temperature;    ///< temperature [K]
+  Vector volume;         ///< volume fraction of the cell
+  Vector expansion;      ///< m R of gases that share their volume [J/(m³ K)]; 0 for bodies
+  Vector stiffPressure;  ///< p + p_inf of the gases that share their volume [Pa]
+  Vector given;          ///< heat added to each, per volume of the cell [J/m³]
 
   explicit WarmThings(Eigen::Index count)
       : mass(Vector::Zero(count)),
@@ -38,8 +38,8 @@ struct WarmThings {
         given(capacity) {}
 
   int present() const { return static_cast<int>((capacity.array() > 0).count()); }
-  /// Sets one of several gases at a common pressure [Pa]: its mass [kg/m³] and volume per volume of the cell. Without
-  /// either, or where the pressure is none that it can have, it is absent.
+  /// Sets one of several gases at a common pressure [Pa], given its mass [kg/m³] and its volume, both per cell volume.
+  /// A gas without mass or volume is absent, and so is a gas that cannot have this pressure.
   void setGas(Eigen::Index at, const euler::Gas& gas, double massOfIt, double share, double pressure) {
     if (!(massOfIt > 0) || !(share > 0) || !(pressure + gas.pInfinity > 0)) return;
     mass[at] = massOfIt;
@@ -51,8 +51,8 @@ struct WarmThings {
   }
 };
 
-/// The increase d of the common pressure after which gases fill the same volume as before: the root of sum (a_k + b_k
-/// d) / (P_k + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure.
+/// The increase d of the common pressure at which the gases still fill the same volume: the root of sum (a_k + b_k d) /
+/// (P_k + d) above the least -P_k. It is unique, because the volume of each gas falls with the pressure. It is found by
 /// Newton's method within bounds.
 template <class Vector>
 double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressure) {
@@ -83,18 +83,18 @@ double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressur
   return rise;
 }
 
-/// Changes in a step of heat exchange.
+/// The changes of the participants in one step of heat exchange.
 template <int Most>
 struct HeatChanges {
-  typename WarmThings<Most>::Vector temperature, volume;  ///< K; share of the cell
+  typename WarmThings<Most>::Vector temperature, volume;  ///< changes of temperature [K] and of volume fraction
 };
 
-/// The changes in dt by C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicit: however stiff the exchange is,
-/// all end at one temperature.
+/// Computes the changes in a time dt from C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicitly: the stiffer
+/// the exchange, the closer all participants are to one temperature at the end.
 ///
-/// Gases that share a volume expand at their common pressure p', that at the end: m c_v dT + (p' + p_inf) dV is the
-/// heat that one gets, V = m R T / (p' + p_inf). So the energy of all gases changes by what bodies get, and the
-/// volumes fill what they filled.
+/// Gases that share a volume expand at their common pressure p' at the end of the step. The heat that a gas receives is
+/// m c_v dT + (p' + p_inf) dV, with V = m R T / (p' + p_inf). So the energy of all gases changes by the heat from the
+/// bodies, and the total volume is constant.
 template <int Most>
 HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoefficients& coefficients, double dt) {
   using Vector = typename WarmThings<Most>::Vector;
@@ -104,7 +104,8 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
   std::size_t pair = 0;
   for (Eigen::Index a = 0; a < count; ++a)
     for (Eigen::Index b = a + 1; b < count; ++b, ++pair) {
-      // Beyond that all is one temperature except for 1e-8 of the difference, and round-off would show.
+      // With a stiffer exchange, temperatures would differ by less than 1e-8 of the difference, and round-off would
+      // show.
       constexpr double stiffest = 1e8;
       if (!(things.capacity[a] > 0) || !(things.capacity[b] > 0)) continue;
       const double perShares = coefficients.of(pair, things.mass[a], things.mass[b]) * dt;
@@ -136,7 +137,7 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
   return changes;
 }
 
-/// Adds heat to several gases; those of a cell expand.
+/// Adds heat to several gases; the gases of a cell expand.
 template <int Most>
 void giveHeat(WarmThings<Most>& things, const Heating& heating, double time, double dt, Eigen::Index first) {
   for (std::size_t k = 0; k < heating.perMass.size(); ++k) {
@@ -145,7 +146,7 @@ void giveHeat(WarmThings<Most>& things, const Heating& heating, double time, dou
   }
 }
 
-/// The volume fractions of gases whose volumes change.
+/// Updates the volume fractions of the gases after their volumes have changed.
 template <int Most, class Shares>
 void changeShares(const HeatChanges<Most>& changes, Eigen::Index first, double room, Shares&& shares) {
   double sum = 0;
@@ -158,7 +159,7 @@ void changeShares(const HeatChanges<Most>& changes, Eigen::Index first, double r
   for (Eigen::Index k = 0; k < count; ++k) shares(k) /= sum;
 }
 
-/// The variables of each gas that the heat exchange reads and changes.
+/// The variables of one gas that the heat exchange reads and changes.
 struct WarmGas {
   CellView<const double> mass;
   CellView<double> share;
@@ -168,8 +169,9 @@ struct WarmGas {
   }
 };
 
-/// Heat exchange between several gases in the cells that they share, with Uintah's coefficients, and heat from outside.
-/// Masses and momentum stay, energy changes by what comes from outside; shares and the pressure change.
+/// Exchanges heat between several gases in the cells that they share, with Uintah's coefficients, and adds heat from
+/// outside. Masses and momentum stay constant, and the energy changes only by the heat from outside; the volume
+/// fractions and the pressure change.
 template <int D>
 void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients& coefficients, const Heating& heating,
                   double time, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,

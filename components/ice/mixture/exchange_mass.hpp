@@ -7,16 +7,16 @@
 
 namespace tushar::ice {
 
-/// The conversion of one of several gases into another.
+/// The conversion of one gas into another, as rate and start time.
 struct Transfer {
   std::size_t from = 0, to = 0;
-  double rate = 0;       ///< fraction of it per time, 1/s
-  double startTime = 0;  ///< s
+  double rate = 0;       ///< converted fraction per unit time [1/s]
+  double startTime = 0;  ///< start time [s]
 };
 
-/// Moves the fraction rate dt of a gas, at most all of it, to another one, with its volume: Uintah's model "Test". As
-/// all have one velocity and the total energy stays, mass, momentum and energy are kept; the pressure changes where
-/// the gases' gammas differ.
+/// Converts the fraction rate dt of a gas, at most all of it, into another one, which takes over its volume: Uintah's
+/// model "Test". Mass, momentum and energy are conserved, since all gases have one velocity and the total energy does
+/// not change. The pressure changes if the gases have different gammas.
 template <int D>
 void transferMass(const Patch& patch, const Gases&, const Transfer& one, double time, double dt,
                   const std::vector<euler::ChangedGas>& held) {
@@ -33,14 +33,14 @@ void transferMass(const Patch& patch, const Gases&, const Transfer& one, double 
   });
 }
 
-/// A gas that becomes another one by a programmed burn.
+/// A gas that is converted into another one by a programmed burn.
 struct BurningGas {
   std::size_t from = 0, to = 0;
   ProgrammedBurn burn;
 };
 
-/// Turns as much of a gas into another one, with its volume, as its programmed burn has reached, and adds its heat.
-/// Mass and momentum are kept, energy changes by the heat.
+/// Converts the part of a gas that its programmed burn has reached into another gas, which takes over its volume, and
+/// adds the heat of the reaction. Mass and momentum are conserved; the energy increases by this heat.
 template <int D>
 void burnByProgram(const Patch& patch, const Gases&, const BurningGas& one, double time, CellView<double> totalEnergy,
                    const std::vector<euler::ChangedGas>& held) {

@@ -5,27 +5,27 @@
 #include "components/ice/tasks/limit_implicit_step.hpp"
 #include "components/ice/tasks/solve_pressure.hpp"
 
-// Implicit steps of several gases: those of one, with the law of each cell.
+// Implicit steps of several gases: the steps of one gas, with the law of the mixture in each cell.
 
 namespace tushar::ice {
 
 namespace c {
 
-/// The law of the gases of a cell before a step, for the solve.
+/// Labels of the law of the gases in a cell before a step, which the solve uses.
 inline constexpr CellLabel<double> softness{"c.softness", "1", "sum of z / (gamma - 1) of several gases"};
 inline constexpr CellLabel<double> stiffness{"c.stiffness", "J/m^3",
                                              "sum of z gamma p_inf / (gamma - 1) of several gases"};
 
 }  // namespace c
 
-/// The share of a gas.
+/// A view of the new volume fraction of a gas.
 struct NewShare {
   CellView<const double> share;
 
   static NewShare from(auto& take) { return {.share = take(requiresNew(euler::c::gasShare))}; }
 };
 
-/// The pressure with which the first step starts [Pa]: that of the gases.
+/// Computes the pressure of the gases [Pa]; in the first step, it is used as the pressure of a previous step.
 template <int D>
 void initializeMixedPressure(const Patch& patch, const Gases& gases, CellView<const double> density,
                              CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
@@ -47,7 +47,7 @@ void computeLaw(const Patch& patch, const Gases& gases, const std::vector<euler:
   });
 }
 
-/// What the solve reads of several gases: their state together, with two ghosts, and their law.
+/// Views of what the solve reads of several gases: their joint state, with two ghost layers, and their law.
 template <int D>
 struct LawfulState : euler::OldState<D> {
   CellView<const double> softness, stiffness;
@@ -55,14 +55,15 @@ struct LawfulState : euler::OldState<D> {
   static LawfulState from(auto& take) {
     return {{euler::OldState<D>::from(take, 2)}, take(requiresNew(c::softness, 2)), take(requiresNew(c::stiffness, 2))};
   }
-  /// As two gases whose shares are G and S themselves, by lawsOfShares.
+  /// Views of an apparent mixture of two gases whose volume fractions are G and S themselves, as lawsOfShares expects.
   euler::MixtureViews<D, const double> views() const {
     return {*this, {this->density, this->density}, {softness, stiffness}};
   }
 };
 inline constexpr euler::Mixture<2> lawsOfShares{.softness = {1, 0}, .stiffness = {0, 1}};
 
-/// Like solvePressure, for several gases; `gas` is the first, whose method and conditions at sides hold for all.
+/// Solves for the pressure of several gases, like solvePressure. `gas` is the first gas; its method and its boundary
+/// conditions apply to all.
 template <int D>
 void solveMixedPressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& gas,
                         const IceSettings& settings, double time, double dt, const std::vector<LawfulState<D>>& before,
@@ -90,7 +91,8 @@ void withLaws(const Gases& gases, Use&& use) {
   use(euler::mixtureOf<3>(gases));
 }
 
-/// Like advanceImplicitly, for several gases: masses flow with u_f, and shares are carried by it.
+/// Performs one step of several gases on a patch, like advanceImplicitly; u_f carries the masses and the volume
+/// fractions.
 template <int D>
 void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceSettings& settings,
                               const euler::OldState<D>& before, const std::vector<euler::OldGas>& oldGases, double time,
@@ -112,7 +114,7 @@ void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceS
   refuseCrossing(most, dt);
 }
 
-/// Like limitImplicitStep, for several gases; what diffuses has a limit of its own.
+/// Limits the time step of several gases, like limitImplicitStep; a separate task limits it by diffusion.
 template <int D>
 void limitImplicitMixture(const Patch& patch, const Gases& gases, double cfl, const IceSettings& settings,
                           const euler::OldState<D>& before, const std::vector<euler::OldGas>& held, double time,

@@ -14,10 +14,10 @@ using input::Element;
 
 namespace {
 
-/// Uintah's momentum exchange coefficients from this value on mean a common velocity.
+/// Uintah's momentum exchange coefficients of at least this value are taken to mean that the gases share one velocity.
 constexpr double oneForAll = 1e9;
 
-/// Uintah's name of the mass fraction of BinaryProperties.
+/// Uintah's name of the mass fraction in BinaryProperties.
 constexpr std::string_view fractionLabel = "scalar-f";
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
@@ -51,7 +51,7 @@ void checkExchange(const GasScene& scene, const Element& root, int solids, Diagn
     if (momentum[pair] < oneForAll)
       return diagnostics.error(tag.child("momentum").value_or(tag),
                                fmt::format("{:g} between gases is not available: gases share one velocity, so the "
-                                           "value must be 1e9 or more",
+                                           "value is expected to be 1e9 or more",
                                            momentum[pair]));
 }
 
@@ -63,7 +63,7 @@ std::optional<std::string> givenAt(const Element& face, const grid::BoundaryVari
   return {};
 }
 
-/// Whether a face is a wall: only a velocity within the face is given.
+/// Whether a face is a wall: only a velocity parallel to the face is given.
 bool isWall(const Element& face) {
   const auto given = givenAt(face, euler::boundary::velocity);
   if (!given || givenAt(face, euler::boundary::pressure) || givenAt(face, euler::boundary::density)) return false;
@@ -97,8 +97,8 @@ void checkSide(const Element& face, const Element& condition, int solids, bool i
     checkMaterial(condition, solids, diagnostics);
 }
 
-/// Checks that sides have conditions for all gases together: velocity and pressure, temperatures of walls, but no
-/// composition.
+/// Checks that the conditions of sides apply to all gases together: they may give velocity, pressure and the
+/// temperature of walls, but no composition.
 void checkSides(const Element& root, int solids, bool isBinary, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>())
@@ -108,7 +108,7 @@ void checkSides(const Element& root, int solids, bool isBinary, Diagnostics& dia
     }
 }
 
-/// Checks that models name two of the gases.
+/// Checks that each exchange of mass names two different gases of the scene.
 void checkExchangesOfMass(const GasScene& scene, Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const euler::Settings& gas : scene.mixture) names.push_back(gas.name);

@@ -4,8 +4,8 @@
 
 namespace tushar::ice {
 
-/// Checks a scene of several gases, and refuses what is not available with them. They are numbered after `solids`
-/// materials.
+/// Checks a scene with several gases, and reports features that are not available with them. In the scene, `solids`
+/// materials come before the gases.
 void checkMixture(const std::vector<GasMaterial>& materials, const input::Element& root, const GasScene& scene,
                   int solids, input::Diagnostics& diagnostics);
 

@@ -4,7 +4,8 @@
 
 namespace tushar::ice {
 
-/// The name of the total of a gas; its address must not change while tasks refer to it.
+/// The label of a total of one gas. It refers to the name, whose address must not change while tasks refer to the
+/// label.
 class GasTotal {
  public:
   explicit GasTotal(const std::string& gas) : name_("TotalMass-" + gas) {}
@@ -20,13 +21,12 @@ class GasTotal {
 
 namespace c {
 
-/// Variables of each of several gases, computed only if a scene saves them.
+/// Variables of each gas, if there are several; they are computed only if a scene saves them.
 inline constexpr CellLabel<double> ownDensity{"c.ownDensity", "kg/m^3",
-                                              "mass of a gas per volume of that gas; 0 where there is none"};
+                                              "mass of a gas per volume of this gas; 0 in cells without it"};
 
-/// Of BinaryProperties.
-inline constexpr CellLabel<double> massFraction{"c.massFraction", "1",
-                                                "mass of the second of two gases over that of both"};
+/// Variables of BinaryProperties.
+inline constexpr CellLabel<double> massFraction{"c.massFraction", "1", "mass fraction of the second of two gases"};
 
 }  // namespace c
 

@@ -8,7 +8,7 @@ namespace tushar::ice {
 
 namespace {
 
-/// The index of a gas.
+/// The index of the gas with this name.
 std::size_t indexOf(const GasScene& scene, const std::string& name) {
   const auto isIt = [&](const euler::Settings& gas) { return gas.name == name; };
   return static_cast<std::size_t>(std::find_if(scene.mixture.begin(), scene.mixture.end(), isIt) -

@@ -10,8 +10,8 @@
 
 namespace tushar::ice {
 
-/// Several gases with the input of Uintah's ICE, at one velocity and one pressure in each cell: the state of `euler`
-/// for all together, and the mass and the volume fraction of each gas. See components/euler/mixture.hpp.
+/// Several gases with the input of Uintah's ICE, at one velocity and one pressure in each cell. Their state is that of
+/// `euler` for all gases together, and the mass and the volume fraction of each gas. See components/euler/mixture.hpp.
 template <int D>
 class MixtureIce : public Component, public reference::GasSolution {
  public:
@@ -36,11 +36,12 @@ class MixtureIce : public Component, public reference::GasSolution {
  protected:
   double cfl() const { return cfl_; }
   const Gases& held() const { return gases_; }
-  /// What changes gases besides their flow, after it: one becomes another, viscosity, conduction, forces, heat.
+  /// Adds the tasks that change the gases after their flow: conversion into another gas, viscosity, conduction, forces,
+  /// heat.
   void scheduleSources(TaskList& tasks) const;
-  /// The limit of diffusion on the time step, together with this fraction of the speed of sound.
+  /// Adds the task that limits the time step by diffusion, together with the given fraction of the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
-  /// Heat between gases, after all else.
+  /// Adds the heat exchange between gases, after all other tasks.
   void scheduleHeat(TaskList& tasks) const;
 
  private:
@@ -55,11 +56,11 @@ class MixtureIce : public Component, public reference::GasSolution {
   Heating heating_;
   bool hasLevels_;
   std::string binary_;     ///< with BinaryProperties, the name of the gas of the scene
-  bool isBinary_ = false;  ///< whether the gases are one of the scene
+  bool isBinary_ = false;  ///< whether the gases are the two parts of a single gas of the scene
   std::vector<std::shared_ptr<const GasTotal>> totals_;
 };
 
-/// The same in implicit steps.
+/// Several gases with implicit steps.
 template <int D>
 class ImplicitMixtureIce : public MixtureIce<D> {
  public:

@@ -10,11 +10,11 @@ const input::Schema<ProgrammedBurn>& programmedBurnSchema() {
           .required("toMaterial", &ProgrammedBurn::to, "1", "the gas that it becomes")
           .required("D", &ProgrammedBurn::speed, "m/s", "speed of the detonation", input::positive())
           .required("E0", &ProgrammedBurn::heat, "J/kg", "heat of the reaction")
-          .required("starting_location", &ProgrammedBurn::start, "m", "a point at which it begins")
+          .required("starting_location", &ProgrammedBurn::start, "m", "the point at which the detonation begins")
           .required("direction_if_plane", &ProgrammedBurn::direction, "1",
-                    "normal of the plane from which it runs; 0 along each axis: from the point alone")
+                    "normal of the plane from which the detonation runs; [0,0,0]: it runs from the point")
           .value("react_mixed_cells", &ProgrammedBurn::burnsInMixedCells, true, "1",
-                 "whether cells burn of which both gases fill no more than .99")
+                 "whether cells burn in which the two gases fill at most .99 of the volume")
           .ignored("AMR_Refinement_Criteria",
                    "a <Variable> in <Refinement_Criteria_Thresholds> determines where cells are finer");
   return schema;

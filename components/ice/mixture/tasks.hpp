@@ -13,12 +13,12 @@ namespace tushar::ice {
 
 using Gases = std::vector<euler::Settings>;
 
-/// The state of several gases at a point at the start: for each gas, that of its last object there, times its volume
+/// The initial state of several gases at a point. Each gas has the state of its last object there, times its volume
 /// fraction.
 template <int D>
 struct MixtureStart {
-  euler::State<D> sum{};                                  ///< state of all together
-  std::array<double, euler::kMostGases> mass{}, share{};  ///< of each
+  euler::State<D> sum{};                                  ///< joint state of all gases
+  std::array<double, euler::kMostGases> mass{}, share{};  ///< mass and volume fraction of each gas
   double filled = 0;                                      ///< sum of the volume fractions
 
   static MixtureStart at(const Level& level, const Gases& gases, const Vec3& point) {
@@ -44,8 +44,8 @@ struct MixtureStart {
   }
 };
 
-/// The state at the start of all cells. Throws InputError where the shares at a centre do not add up to 1, and as
-/// euler::initialize does.
+/// Sets the initial state of all cells. Throws InputError where euler::initialize does, and where the volume fractions
+/// at the centre of a cell do not add up to 1.
 template <int D>
 void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewState<D>& fresh,
                        const std::vector<euler::NewGas>& held) {
@@ -66,7 +66,7 @@ void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewS
   });
 }
 
-/// A cell of several gases: rho, internal energy per volume, and the law that holds there.
+/// A cell with several gases: rho, the internal energy per volume, and the law of the mixture in it.
 struct MixedCell {
   double density = 0, energy = 0;
   euler::MixedGas law;
@@ -104,7 +104,7 @@ void computeMixedMach(const Patch& patch, const Gases& gases, const euler::OldSt
   });
 }
 
-/// T [K], the same for all gases of a cell: rho e = sum of m_k c_v,k T + z_k p_inf,k.
+/// Computes T [K], which is the same for all gases of a cell: rho e = sum of m_k c_v,k T + z_k p_inf,k.
 template <int D>
 double temperatureAt(const Gases& gases, const euler::OldState<D>& state, const std::vector<euler::OldGas>& held,
                      const Index<D>& cell) {
@@ -123,7 +123,8 @@ void computeMixedTemperature(const Patch& patch, const Gases& gases, const euler
              [&](const Index<D>& cell) { temperature[cell] = temperatureAt<D>(gases, state, held, cell); });
 }
 
-/// Mass of each gas per volume of that gas. A share below a millionth of the cell is round-off, or almost.
+/// Computes the mass of each gas per volume of that gas; 0 where it fills less than a millionth of the cell, which may
+/// be round-off.
 template <int D>
 void computeOwnDensity(const Patch& patch, const Gases&, const std::vector<euler::OldGas>& held,
                        const std::vector<CellView<double>>& density) {
@@ -139,13 +140,13 @@ void computeMassFraction(const Patch& patch, const Gases&, CellView<const double
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { fraction[cell] = held[1].mass[cell] / density[cell]; });
 }
 
-/// Mass of one gas in the patch [kg].
+/// Computes the mass of one gas in the patch [kg].
 template <int D>
 void sumGas(const Patch& patch, const Gases&, std::size_t gas, const std::vector<euler::OldGas>& held, Sum& mass) {
   euler::sumMass<D>(patch, held[gas].mass, mass);
 }
 
-/// Errors of the cells relative to the exact means over them.
+/// Computes errors of the cells relative to the exact cell means.
 template <int D>
 void measureMixedError(const Patch& patch, const Gases& gases, const reference::GasReference* exact,
                        const reference::Clock* clock, const euler::OldState<D>& state,

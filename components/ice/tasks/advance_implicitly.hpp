@@ -5,15 +5,15 @@
 
 namespace tushar::ice {
 
-/// The update of the cells in a step, block by block, once the pressure at its end is known.
+/// The update of cells in a step, block by block, after the pressure at its end has been computed.
 template <int D, int K = 1>
 class ImplicitStep {
  public:
-  /// Space for blocks no larger than `largest`.
+  /// Allocates space for blocks no larger than `largest`.
   ImplicitStep(const Level& level, const euler::Settings& method, const IceSettings& settings,
                const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {}) requires(K == 1)
       : ImplicitStep(level, method.gas, method.method, settings, rules, largest, dt, std::move(isFlat)) {}
-  /// The same for these laws, which outlive this.
+  /// Like the constructor above, for the given laws, which must outlive this object.
   ImplicitStep(const Level& level, const LawsOf<K>& gas, const euler::Method& method, const IceSettings& settings,
                const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {})
       : level_(level),
@@ -34,14 +34,14 @@ class ImplicitStep {
       forEach<D>(level_.clipCells(block.grown(1, D)), [&](const Index<D>& cell) { goHalfway(cell); });
   }
 
-  /// The fluxes through the lower faces of `faces` across an axis: u_f transports the values of the upwind cell, half a
-  /// step later; the pressure is the mean of p' and, where the gas is compressed, von Neumann's and Richtmyer's
-  /// viscosity of a strong shock, (gamma + 1) / 2 rho (dv)². Returns the greatest part of a cell that flows through a
-  /// face.
+  /// Computes the fluxes through the lower faces of `faces` across an axis. u_f transports the values of the upwind
+  /// cell, half a step later. The pressure is the mean of p' on both sides; in compression, it also contains the
+  /// viscosity of von Neumann and Richtmyer for a strong shock, (gamma + 1) / 2 rho (dv)². Returns the largest fraction
+  /// of a cell that flows through a face.
   double computeFluxes(const Box& faces, int axis) {
     return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
   }
-  /// The same through the open fraction `open(face)` of each face.
+  /// Computes fluxes like the function above, with flow only through the open fraction `open(face)` of each face.
   template <class Open>
   double computeFluxes(const Box& faces, int axis, Open&& open) {
     double most = 0;
@@ -68,12 +68,12 @@ class ImplicitStep {
   }
   euler::Rows<D, K>& flux() { return flux_; }
 
-  /// Adds gravity at both faces of each cell of a block across an axis, and its work on the flow through them, so that
-  /// stratified gas remains at rest.
+  /// Adds gravity to each cell of a block, in equal parts at both of its faces across an axis, and its work on the flow
+  /// through these faces. So stratified gas remains at rest.
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
     addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
   }
-  /// The same only in the cells for which `takes(cell)` holds.
+  /// Adds gravity like the function above, but only in the cells for which `takes(cell)` is true.
   template <class Takes>
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh, Takes&& takes) {
     const double g = flow_.gravity()[axis];
@@ -88,7 +88,7 @@ class ImplicitStep {
   }
 
  private:
-  /// (gamma + 1) / 2 at a face; of several gases the mean of both sides.
+  /// (gamma + 1) / 2 at a face; for several gases, the mean of the values on both sides.
   double shockSlope(const Index<D>& face, int axis) const {
     if constexpr (K == 1) return flow_.gas().shockSlope();
     const auto of = [&](const Index<D>& cell) {
@@ -100,9 +100,9 @@ class ImplicitStep {
     return flow_.unchanged(face, axis) -
            flow_.loss(face, axis) * (changeIn(face) - changeIn(face - Index<D>::unit(axis)));
   }
-  /// p' - p of a cell; 0 beyond sides of the grid, Pa.
+  /// p' - p of a cell [Pa]; 0 beyond sides of the grid.
   double changeIn(const Index<D>& cell) const { return flow_.isOnGrid(cell) ? (*change_)[cell] : 0; }
-  /// p' in an open side, Pa.
+  /// p' on an open side [Pa].
   double openPressure(const Index<D>& face, int axis) const {
     return flow_.openPressure(face, axis, changeIn(face) + changeIn(face - Index<D>::unit(axis)));
   }
@@ -113,19 +113,22 @@ class ImplicitStep {
     const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
     const double rho = flow_.density(face, axis);
     const double viscous = together > 0 ? shockSlope(face, axis) * rho * together * together : 0;
-    // Where a velocity is given without a pressure, as at a wall, p' is that of the cell, half a cell away.
+    // Where a velocity is given without a pressure, as at a wall, p' follows from the cell, whose centre is half a cell
+    // away.
     const double weight = flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis] : 0;
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
   }
-  /// p' beyond a face of a cell; beyond an open side the value whose mean with that of the cell is p' in the side, Pa.
+  /// p' beyond a face of a cell [Pa]. Beyond an open side, it is the value whose mean with the value of the cell is p'
+  /// on the side.
   double pressureBeyond(const Index<D>& cell, int axis, int side) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
     const std::size_t p = euler::kPressure<D>;
     if (flow_.isOpen(face, axis)) return 2 * openPressure(face, axis) - after_.number(cell, p);
     return after_.number(side == 0 ? cell - Index<D>::unit(axis) : face, p);
   }
-  /// The state of a cell at the face above (1) or below it (-1), half a step later. Of several gases, its density is
-  /// always the sum of the masses: where gas flows in with the state of the adjacent cell, a difference would grow.
+  /// The state of a cell at the face above (1) or below it (-1), half a step later. For several gases, its density is
+  /// always the sum of the masses; otherwise, a difference would grow where gas flows in with the state of the adjacent
+  /// cell.
   euler::State<D, K> atFace(const Index<D>& cell, int axis, int side) const {
     euler::State<D, K> w = middle_.state(cell);
     const bool isSloped = flow_.hasSlopes() && flow_.isOnGrid(cell);
@@ -137,7 +140,7 @@ class ImplicitStep {
     closeState<D, K>(w);
     return w;
   }
-  /// The change of a cell due to flow, pressure and gravity in half a step.
+  /// Computes the change of a cell due to flow, pressure and gravity in half a step.
   void goHalfway(const Index<D>& cell) {
     if (flow_.isFlat(cell)) return;
     const euler::State<D, K> w = flow_.old().state(cell);
@@ -157,7 +160,7 @@ class ImplicitStep {
   euler::Rows<D, K> after_, middle_, flux_;
 };
 
-/// Advances the cells of a block by a step; returns the greatest part of a cell that flows through a face.
+/// Advances the cells of a block by a step. Returns the largest fraction of a cell that flows through a face.
 template <int D, int K>
 double advanceBlockImplicitly(const Level& level, const Box& block, const euler::ViewsOf<D, K, const double>& before,
                               double dt, const CellView<const double>& change, ImplicitStep<D, K>& step,
@@ -178,18 +181,19 @@ double advanceBlockImplicitly(const Level& level, const Box& block, const euler:
   return most;
 }
 
-/// Throws NumericalError if gas would cross more than a cell.
+/// Throws NumericalError if gas would cross more than one cell in the step.
 inline void refuseCrossing(double most, double dt) {
   if (!(most <= 1))
     throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
                          "a smaller CFD/cfl", "c.velocity");
 }
 
-/// One step on a patch, in which pressures change by `change`, p' - p [Pa]: U' = U - dt sum_d (F_{d,i+1/2} -
-/// F_{d,i-1/2}) / h_d with F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are kept
-/// whatever p' is; a contact stays at one pressure and velocity. Of second order in space, of first in time. Throws
-/// NumericalError where a density or p + p_inf would not be positive, or gas would cross more than a cell. Source: as
-/// FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
+/// Performs one step on a patch in which pressures change by `change`, p' - p [Pa]: U' = U - dt sum_d (F_{d,i+1/2} -
+/// F_{d,i-1/2}) / h_d, where F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are
+/// conserved for any p'; a contact keeps a uniform pressure and velocity. The step is of second order in space and of
+/// first order in time. Throws NumericalError if a density or p + p_inf would not be positive, or if gas would cross
+/// more than a cell. Sources: those of FaceFlow; for shocks, J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950)
+/// 232.
 template <int D>
 void advanceImplicitly(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
                        const euler::OldState<D>& before, double time, double dt, CellView<const double> change,

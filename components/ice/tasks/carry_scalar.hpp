@@ -7,8 +7,8 @@
 
 namespace tushar::ice {
 
-/// The scalar at the start, times the density, from the last region that owns the centre of a cell. Throws InputError
-/// where none does.
+/// Sets the initial product of scalar and density, from the last region that contains the centre of a cell. Throws
+/// InputError for a centre that no region contains.
 template <int D>
 void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                       CellView<double> held) {
@@ -65,12 +65,12 @@ struct ScalarBefore {
   }
 };
 
-/// A scalar at the faces of cells.
+/// The values of a scalar f at the faces of cells.
 ///
-/// f of a cell falls or rises by van Leer's slopes, and is taken half a step ahead, as what leaves through its faces
-/// takes it along. Then its differences from the mean are shrunk until all that leaves, and what then stays, lies
-/// between the values of the cell and its neighbours: so no step makes a value that was not there before.
-/// Source: X. Zhang & C.-W. Shu, J. Comput. Phys. 229 (2010) 3091, of this way to keep a maximum principle.
+/// In a cell, f varies with van Leer's slopes. The values that leave the cell through its faces are taken half a step
+/// later. Their differences from the mean are then reduced until these values, and the mean of what remains in the
+/// cell, lie between the values of the cell and its neighbours. So a step creates no new extrema. Source for this
+/// limiter: X. Zhang & C.-W. Shu, J. Comput. Phys. 229 (2010) 3091.
 template <int D>
 class ScalarAtFaces {
  public:
@@ -121,7 +121,7 @@ class ScalarAtFaces {
   double perMass(const Index<D>& cell, int axis) const {
     return dt_ * level_.inverseSpacing(axis) / before_.density[cell];
   }
-  /// The factor on the differences that keeps the remainder of the cell within the limits.
+  /// The factor of the differences with which the mean of what remains in the cell is within the limits.
   double shrinkage(const Index<D>& cell, const Faces& change, double least, double most) const {
     double rest = 1, gone = 0;
     for (int d = 0; d < D; ++d)
@@ -155,7 +155,8 @@ class ScalarFlux {
              const ScalarAtFaces<D>& faces, double time)
       : level_(level), gas_(gas), scalar_(scalar), before_(before), faces_(faces), time_(time) {}
 
-  /// Through the lower (0) or upper (1) face of a cell: f of the gas that flows through it, and -rho D df/dx.
+  /// The flux through the lower (0) or upper (1) face of a cell: the mass flux times f of the gas in it, plus -rho D
+  /// df/dx.
   double operator()(const Index<D>& cell, int axis, int side) const {
     const double mass = side == 0 ? before_.below[cell][axis] : before_.above[cell][axis];
     const Index<D> next = side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis);
@@ -208,9 +209,9 @@ class ScalarFlux {
   double time_;
 };
 
-/// A scalar f is advected with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with
-/// the mass fluxes of the step times f at the faces. So what cells hold of it changes by what flows through sides of
-/// the grid alone, a uniform f stays as it is, and no value leaves the range of those before, except for round-off.
+/// Advects a scalar f with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, where F
+/// is the mass flux of the step times f at the face. So the total changes only by fluxes through sides of the grid, a
+/// uniform f stays uniform, and no value leaves the range of the previous values, except for round-off.
 template <int D>
 void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::Gas& gas, bool hasSlopes,
                  const ScalarBefore<D>& before, double time, double dt, CellView<double> held,
@@ -234,7 +235,7 @@ void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::G
   });
 }
 
-/// Applies the interior sources of a scalar: each raises the scalar by its value in every step, up to its limit.
+/// Applies the interior sources of a scalar: in every step, each raises the scalar by its value, up to its limit.
 template <int D>
 void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                  CellView<double> held) {
@@ -251,7 +252,7 @@ void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const
   }
 }
 
-/// dt = cfl / (4 sum_d D / h_d²), so that diffusion and flow together create no new extrema.
+/// Computes dt = cfl / (4 sum_d D / h_d²), so that diffusion and flow together create no new extrema.
 template <int D>
 void limitScalarDiffusion(const Patch& patch, double diffusivity, double cfl, CellView<const double>, Minimum& dt) {
   double rate = 0;
@@ -267,7 +268,7 @@ void computeScalar(const Patch& patch, CellView<const double> density, CellView<
              [&](const Index<D>& cell) { value[cell] = density[cell] > 0 ? held[cell] / density[cell] : 0; });
 }
 
-/// The amount of a scalar on the patch [kg].
+/// Computes the amount of a scalar on the patch [kg].
 template <int D>
 void sumScalar(const Patch& patch, CellView<const double> held, Sum& total) {
   WideSum sum(total);

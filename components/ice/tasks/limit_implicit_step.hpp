@@ -4,7 +4,7 @@
 
 namespace tushar::ice {
 
-/// The pressure with which the first step starts [Pa]: that of the gas.
+/// Computes the pressure of the gas [Pa]; in the first step, it is used as the pressure at the end of a previous step.
 template <int D>
 void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<const double> density,
                         CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
@@ -13,12 +13,13 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { pressure[cell] = euler::pressureIn(gas, state, cell); });
 }
 
-/// s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at which gas
-/// crosses a cell, with its acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas at rest does not cross cells within
-/// the step. |v_d| is the greatest of the cell and of what sides give at its faces. `pushing` has the pressure that the
-/// last step ended with: the pressure of the gas also has what conduction brought in, which sound evens out before it
-/// moves anything. k is Uintah's `knob_for_speedSound`, `diffusivity(rho)` nu [m²/s]. Returns the greatest s of the
-/// patch, 1/s. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
+/// Returns the largest s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2 of the patch [1/s], where r = sum_d (|v_d| + k c) /
+/// h_d + 2 nu / h_d². s is the rate at which gas crosses a cell. It includes the acceleration a_d = |g_d - (dp/dx_d) /
+/// rho|, so that gas initially at rest does not cross a cell within the step. |v_d| is the maximum of the cell's
+/// velocity and of the velocities prescribed at its faces. The pressure in a_d is `pushing`, that at the end of the
+/// previous step; the pressure of the gas itself also contains the effect of conduction, which sound equalises before
+/// it moves the gas. k is Uintah's `knob_for_speedSound`; `diffusivity(rho)` is nu [m²/s]. Source: N. Kwatra & al., J.
+/// Comput. Phys. 228 (2009) 4146, section 3.3.
 template <int D, int K, class Diffusivity>
 double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing,
                             double soundSpeedKnob, Diffusivity&& diffusivity) {
@@ -52,8 +53,8 @@ double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, cons
   return greatest;
 }
 
-/// dt = cfl / s, with the rate of greatestImplicitRate, nu the greatest diffusivity. Throws NumericalError where a
-/// density, or p + p_inf, is not positive.
+/// Computes dt = cfl / s, where s is the rate of greatestImplicitRate, with the largest diffusivity as nu. Throws
+/// NumericalError where a density, or p + p_inf, is not positive.
 template <int D>
 void limitImplicitStep(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
                        const euler::OldState<D>& before, double time, CellView<const double> pressure, Minimum& dt) {

@@ -6,7 +6,7 @@
 
 namespace tushar::ice {
 
-/// The report of the last solve.
+/// References to the totals that report on the solve of a step.
 struct SolveTotals {
   Maximum &iterations, &assembly, &preconditioner, &solution;
 
@@ -18,7 +18,7 @@ struct SolveTotals {
   }
 };
 
-/// The result of a solve: p' - p and p', Pa.
+/// The result of a solve: p' - p and p' [Pa].
 struct PressureViews {
   CellView<double> change, atEnd;
 
@@ -30,9 +30,9 @@ struct PressureViews {
 /// A face of a cell.
 template <int D>
 struct CellFace {
-  int axis, side;        ///< side 0: the lower face, 1: the upper one
-  Index<D> index, next;  ///< index of the face (that of the cell above it), and the cell behind it
-  double ratio, out;     ///< dt / h, s/m; the same with the sign of the outward normal
+  int axis, side;        ///< side: 0 for the lower face, 1 for the upper one
+  Index<D> index, next;  ///< index of the face (that of the cell above it), and of the neighbour beyond it
+  double ratio, out;     ///< dt / h [s/m], without and with the sign of the outward normal
 };
 
 /// Calls visit(CellFace) for each face of a cell, axis by axis, the lower face first.
@@ -45,7 +45,7 @@ void forEachFaceOf(const Level& level, const Index<D>& cell, double dt, Visit&& 
   }
 }
 
-/// The equation weight d = 0 of a cell, where d is the change of its pressure.
+/// Returns the equation weight d = 0 of a cell, where d is the change of the cell's pressure.
 template <int D>
 numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   numerics::CellEquation<D> equation{{}, 0};
@@ -54,7 +54,8 @@ numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   return equation;
 }
 
-/// Adds weight (d - d_n) to the left-hand side, where d_n is the change in the cell `next`, which is 0 beyond the grid.
+/// Adds weight (d - d_n) to the left-hand side of a cell's equation. d_n is the change in the cell `next`; beyond the
+/// grid, it is 0.
 template <int D, int K>
 void couple(const FaceFlow<D, K>& flow, const Index<D>& next, double weight, numerics::Balance<D>& left) {
   left.weights[0] += weight;
@@ -63,19 +64,19 @@ void couple(const FaceFlow<D, K>& flow, const Index<D>& next, double weight, num
   left.weights[left.count++] = -weight;
 }
 
-/// p_n - p [Pa] across a face, before the step.
+/// The pressure of the cell beyond a face minus that of the cell itself, before the step [Pa].
 template <int D, int K>
 double riseAcross(const FaceFlow<D, K>& flow, const Index<D>& cell, const CellFace<D>& face) {
   return flow.old().number(face.next, euler::kPressure<D>) - flow.old().number(cell, euler::kPressure<D>);
 }
 
-/// The equation for the change of a cell's pressure, p' - p, of the internal energy
-/// (rho e)' = rho e - dt div((rho e + p) u_f) + dt v . grad p, with u_f of p', the enthalpy at faces and v . grad p
-/// before the step. In gas rho e + p = gamma (p + p_inf) / (gamma - 1), so that with d = p' - p, and u_f of d = 0,
+/// The equation for the change p' - p of a cell's pressure. It follows from the equation of the internal energy, (rho
+/// e)' = rho e - dt div((rho e + p) u_f) + dt v . grad p, with u_f of p', but with the enthalpy at faces and v . grad p
+/// before the step. In gas, rho e + p = gamma (p + p_inf) / (gamma - 1). With d = p' - p, and u_f of d = 0, this gives
 ///
 ///   d - dt div(gamma P_f loss_f (d_R - d_L)) = -dt div(gamma P_f u_f) + (gamma - 1) dt v . grad p,
 ///
-/// symmetric and positive definite.
+/// which is symmetric and positive definite.
 template <int D>
 numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>& flow, const Index<D>& cell,
                                            double dt) {
@@ -91,7 +92,7 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
   return equation;
 }
 
-/// 1 / (rho c²) of a cell, 1/Pa.
+/// 1 / (rho c²) of a cell [1/Pa].
 template <int D, int K>
 double softnessIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
   const euler::State<D, K> w = flow.old().state(cell);
@@ -99,12 +100,12 @@ double softnessIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
               euler::lawIn<D>(flow.gas(), w).soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]));
 }
 
-/// The equation in a gas with its own equation of state, and in several gases, from dp/dt + v . grad p = -rho c² div v,
-/// over rho c²:
+/// The equation in a gas with its own equation of state, and in several gases. It is dp/dt + v . grad p = -rho c² div
+/// v, divided by rho c²:
 ///
 ///   d / (rho c²) - dt div(loss_f (d_R - d_L)) = -dt div u_f - dt v . grad p / (rho c²),
 ///
-/// also symmetric and positive definite.
+/// which is also symmetric and positive definite.
 template <int D, int K>
 numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D, K>& flow, const Index<D>& cell,
                                         double dt) {
@@ -119,7 +120,7 @@ numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D, K>
   return equation;
 }
 
-/// p + p_inf of a cell, Pa.
+/// p + p_inf of a cell [Pa].
 template <int D, int K>
 double stiffPressureIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
   const euler::State<D, K> w = flow.old().state(cell);
@@ -129,11 +130,11 @@ double stiffPressureIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
     return euler::lawIn<D>(flow.gas(), w).heat(w[euler::kDensity], w[euler::kPressure<D>]);
 }
 
-/// Solves for the change of pressure in the step in all cells [Pa] where isEmpty(p, cell) is false, from the state
-/// that the flow of each patch holds, and computes the pressure at the end. The last step's pressure is the first
-/// guess. The residual is how far the gas would miss that pressure, in the unit of the equation, so the tolerance is
-/// relative to the greatest pressure in that unit, `scaleOf(p, cell)`, where that is more than the right-hand side.
-/// Throws NumericalError if the solver gives up.
+/// Solves for the change of pressure in the step [Pa] in all cells where isEmpty(p, cell) is false, given the state
+/// that the flow of each patch contains, and computes the pressure at the end. The initial guess is the pressure at the
+/// end of the previous step. The residual measures by how much the gas would miss the computed pressure, in the unit of
+/// the equation. Therefore, the tolerance is relative to the largest pressure in that unit, `scaleOf(p, cell)`, or to
+/// the right-hand side if it is larger. Throws NumericalError if the solver fails.
 template <int D, int K, class IsEmpty, class EquationOf, class ScaleOf>
 void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
                     const std::vector<FaceFlow<D, K>>& flows, const std::vector<CellView<const double>>& guess,
@@ -167,7 +168,7 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
   solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
 }
 
-/// Solves for the change of pressure in the step [Pa], from the state before it, and computes the pressure at the end.
+/// Solves for the change of pressure in the step [Pa], given the state before it, and computes the pressure at the end.
 /// Throws NumericalError if the solver gives up.
 template <int D>
 void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& method,

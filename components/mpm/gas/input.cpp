@@ -38,7 +38,7 @@ const Schema<MpmSection>& mpmSchema() {
   return schema;
 }
 
-/// Refuses placements other than midpoint: the particles of the conserving method tile their cells.
+/// Refuses placements other than midpoint, because the particles of the conserving method must tile their cells.
 void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics) {
   for (const GasSection& material : properties.mpm.materials)
     for (const GasObjectSection& object : material.objects)
@@ -48,7 +48,8 @@ void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics)
             "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
 }
 
-/// Refuses several gases with settings that do not support them: they need boxes without remapping, and `apic`.
+/// Refuses several gases unless the settings support them: <conserving_gas_dynamics> with `apic`, without <remap>,
+/// <artificial_heat_conduction> and <relaxation>. Also refuses two gases of the same name.
 void refuseMixtures(const MpmSection& method, const GasProperties& properties, Diagnostics& diagnostics) {
   const std::vector<GasSection>& materials = properties.mpm.materials;
   if (materials.size() < 2) return;
@@ -69,7 +70,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
   }
 }
 
-/// Refuses stiffened gases, as the paper's method is for ideal gases.
+/// Refuses stiffened gases, because <gas_dynamics> is a method for ideal gases.
 void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) {
   for (const GasSection& material : properties.mpm.materials)
     if (material.model.type == GasType::stiffened)
@@ -97,7 +98,7 @@ std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& m
   return conserving::makeConservingMpm(level, conserving::settle(*method.conserving, level.dimension()), gases);
 }
 
-/// Reads a scene of gases; every problem goes to the diagnostics.
+/// Reads a scene with gases; reports every problem to the diagnostics.
 simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
   refuseSolidsOnly(root, diagnostics);
   const std::size_t before = diagnostics.size();
@@ -112,7 +113,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   return [method, gases](const Level& level) { return makeComponent(level, method, gases); };
 }
 
-/// The sections of such a scene, for the schemas of editors: a list for each method.
+/// The sections of a scene with gases, for the schemas of editors: one list of sections for each method.
 std::vector<std::vector<simulation::SectionForm>> forms() {
   std::vector<std::vector<simulation::SectionForm>> forms;
   for (const char* method : {"gas_dynamics", "conserving_gas_dynamics"})

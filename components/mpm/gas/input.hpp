@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas {
 
-/// The gas methods, as a part of the component mpm.
+/// Describes the gas methods of the component mpm.
 MethodKind kind();
 
 }  // namespace tushar::mpm::gas

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::gas {
 
-/// Particle variables.
+/// Labels of particle variables.
 namespace p {
 using namespace mpm::p;
 inline constexpr ParticleLabel<double> density{"p.density", "kg/m^3", "mass density", Bound::positive};
@@ -13,10 +13,10 @@ inline constexpr ParticleLabel<double> internalEnergy{"p.internalEnergy", "J/kg"
                                                       Bound::nonNegative};
 inline constexpr ParticleLabel<double> pressure{"p.pressure", "Pa", "pressure, artificial viscosity included"};
 inline constexpr ParticleLabel<double> velocityDivergence{
-    "p.velocityDivergence", "1/s", "divergence of the velocity in the particle's cell in the last step"};
+    "p.velocityDivergence", "1/s", "divergence of the velocity in the particle's cell in the latest step"};
 }  // namespace p
 
-/// Node variables.
+/// Labels of node variables.
 namespace g {
 using namespace mpm::g;
 template <int D>
@@ -24,12 +24,12 @@ inline constexpr NodeLabel<Vec<D>> velocityStar{"g.velocity_star", "m/s", "veloc
                                                 Bound::finite};
 }  // namespace g
 
-/// Cell variables.
+/// Labels of cell variables.
 namespace c {
 inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mean density of the particles in the cell"};
 }  // namespace c
 
-/// Totals over all particles.
+/// Labels of totals over all particles.
 namespace total {
 using namespace mpm::total;
 inline constexpr ReductionLabel<Sum> internalEnergy{"InternalEnergy", "J", "internal energy of all particles"};

@@ -87,7 +87,7 @@ const Schema<GasSection>& materialSchema() {
           .section("relaxation", &GasSection::relaxation, relaxationSchema())
           .ours()
           .value("thermal_conductivity", &GasSection::thermalConductivity, 0, "W/(m K)",
-                 "must be 0: the gas method conducts no heat", input::between(0, 0))
+                 "the gas method conducts no heat", input::between(0, 0))
           .value("specific_heat", &GasSection::specificHeat, 0, "J/(kg K)",
                  "accepted for compatibility with Uintah: the constitutive model has its own", input::nonNegative())
           .list("geom_object", &GasSection::objects, objectSchema(), "a body of material at the start", 1)
@@ -100,7 +100,7 @@ const Schema<GasSection>& materialSchema() {
   return schema;
 }
 
-/// The pressure of a body: as given, or (gamma - 1) rho c_v T - p_inf if its temperature is given.
+/// The initial pressure of a body: as given, or (gamma - 1) rho c_v T - p_inf if its temperature is given.
 input::Expression pressureOf(const GasObjectSection& object, const input::Expression& density,
                              const GasModelSection& model) {
   if (object.pressure) return *object.pressure;

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::gas {
 
-/// A `geom_object`, as given in the scene.
+/// A tag `geom_object`, as given in the scene.
 struct GasObjectSection {
   Location where;
   std::shared_ptr<const input::GeometryPiece> shape;
@@ -18,7 +18,7 @@ struct GasObjectSection {
 
 enum class GasType { ideal, stiffened };
 
-/// A `constitutive_model`, as given in the scene.
+/// A tag `constitutive_model`, as given in the scene.
 struct GasModelSection {
   Location where;
   GasType type = GasType::ideal;
@@ -26,7 +26,7 @@ struct GasModelSection {
   double specificHeat = 717.5;
 };
 
-/// A `material`, as given in the scene.
+/// A tag `material`, as given in the scene.
 struct GasSection {
   std::string name;
   std::optional<double> density;
@@ -45,10 +45,10 @@ struct GasProperties {
   GasList mpm;
 };
 
-/// The schema of `MaterialProperties` in scenes of gases.
+/// The schema of `MaterialProperties` in scenes with gases.
 const input::Schema<GasProperties>& gasProperties();
 
-/// The gas of a material. `isAlone`: it does not exchange volume with other gases.
+/// Constructs the gas of a material. `isAlone`: it does not exchange volume with other gases.
 Gas makeGas(const GasSection& material, bool isAlone);
 
 }  // namespace tushar::mpm::gas

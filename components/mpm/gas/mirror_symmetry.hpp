@@ -3,12 +3,12 @@
 #include "components/mpm/shapes/linear.hpp"
 
 // Mirror symmetry to the bit: the mirror image of a scene has the mirror image of its result. Floating-point sums
-// depend on their order, so sums over particles and nodes take both sides alike; and positions are measured from the
-// middle of a cell and of the grid, because distances from a lower corner round differently in the mirror image.
+// depend on their order, so sums over particles and nodes treat both sides in the same way. Positions are measured from
+// the middle of a cell or of the grid, because distances from a lower corner round differently in the mirror image.
 
 namespace tushar::mpm::gas {
 
-/// The centre of the grid along a kernel axis, m.
+/// The centre of the grid along a kernel axis [m].
 inline double middleOf(const Level& level, int kernelAxis) {
   const auto& domain = level.domain();
   const int axis = level.axis(kernelAxis);
@@ -17,14 +17,14 @@ inline double middleOf(const Level& level, int kernelAxis) {
                        : lower + 0.5 * level.cells().upper[kernelAxis] * level.spacing(kernelAxis);
 }
 
-/// The distance, in cells, of a cell's centre from the middle of the grid; exactly opposite for the mirror image of the
-/// cell.
+/// The signed distance of a cell's centre from the middle of the grid, in cells. For the mirror image of the cell, it
+/// has exactly the opposite value.
 template <class Number>
 Number fromMiddle(const Level& level, int kernelAxis, const Number& cell) {
   return cell - 0.5 * (level.cells().upper[kernelAxis] - 1);
 }
 
-/// The position `offset` cells from the centre of a cell along a kernel axis, m, computed from the middle of the grid.
+/// The position `offset` cells from the centre of a cell along a kernel axis [m], computed from the middle of the grid.
 inline double positionInCell(const Level& level, int kernelAxis, int cell, double offset) {
   const double cells = fromMiddle<double>(level, kernelAxis, cell) + offset;
   return middleOf(level, kernelAxis) + cells * level.spacing(kernelAxis);

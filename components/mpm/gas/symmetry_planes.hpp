@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas {
 
-/// Nothing moves through a symmetry plane: sets the normal component of a node field to 0 there.
+/// Sets the normal component of a node field to 0 at symmetry planes, so that nothing moves through them.
 template <int D>
 void stopAtSymmetryPlanes(const Patch& patch, NodeView<Vec<D>> field) {
   for (int d = 0; d < D; ++d)

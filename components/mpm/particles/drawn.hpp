@@ -9,12 +9,12 @@
 
 namespace tushar::mpm {
 
-/// The quantities that are drawn at random. Each has a separate stream: otherwise a particle with many pores would have
-/// much damage.
+/// The quantities that are drawn at random. Each has a stream of its own: otherwise a particle with many pores would
+/// have much damage.
 enum class Drawing : std::uint64_t { threshold, yieldStress, damage, porosity };
 
-/// The n-th of four random numbers in (0, 1) for a particle, n = 0 ... 3. It depends on what it decides, the seed and
-/// the id only, so it is the same on every patch layout.
+/// The n-th of four random numbers in (0, 1) for a particle, n = 0 ... 3. It depends on the quantity, the seed and the
+/// id only, so it is the same on every patch layout.
 ///
 /// Two rounds of the bit mixer of Steele, Lea & Flood, OOPSLA 2014 (see mixed.hpp), but with its constant added before
 /// each round, not once.
@@ -31,8 +31,8 @@ inline double drawn(Drawing drawing, int seed, ParticleId id, std::uint64_t n) {
   return (static_cast<double>(z >> 11) + 0.5) * 0x1p-53;
 }
 
-/// A number from the standard normal distribution for a particle, by Box & Muller, Ann. Math. Stat. 29 (1958) 610, from
-/// the first two numbers of drawn().
+/// A normally distributed number for a particle, by Box & Muller, Ann. Math. Stat. 29 (1958) 610, from the first two
+/// numbers of drawn().
 inline double drawnNormal(Drawing drawing, int seed, ParticleId id) {
   return std::sqrt(-2 * std::log(drawn(drawing, seed, id, 0))) *
          std::cos(2 * std::numbers::pi * drawn(drawing, seed, id, 1));

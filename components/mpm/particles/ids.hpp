@@ -12,8 +12,8 @@ namespace tushar::mpm {
 /// Number of particle ids per cell.
 inline constexpr ParticleId idsOfCell = 1 << 16;
 
-/// The id of the k-th particle that starts in a cell, from the number of the cell and k, so that it does not depend on
-/// the patches. Throws InputError, at `where` in the scene, if k exceeds the ids of the cell.
+/// The id of the k-th particle placed in a cell at the start, from the index of the cell and k, so that it does not
+/// depend on the patches. Throws InputError, at `where` in the scene, if k exceeds the ids of the cell.
 template <int D>
 ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Location& where) {
   if (k >= idsOfCell)
@@ -24,7 +24,8 @@ ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Lo
   return level.cellNumber(cell) * idsOfCell + k;
 }
 
-/// The id of a new particle, from the id and position of its parent only, so that it is the same on every layout.
+/// The id of a new particle; it depends only on the id and position of its parent, so that it is the same on every
+/// layout.
 inline ParticleId derivedId(ParticleId parent, double place) {
   constexpr ParticleId derived = ParticleId{1} << 63;
   return mixed(parent ^ mixed(std::bit_cast<std::uint64_t>(place))) | derived;

@@ -7,13 +7,14 @@ namespace tushar::mpm {
 
 // Shape functions along an axis, in units of the cell width: `xi` in [0,1] is the position of the particle in its cell,
 // `size` its extent. Each fills the values and derivatives at consecutive nodes and returns the first node's number,
-// where 0 is the lower node of the cell. A Real is a number, or a Quad of one for each axis, for all axes at once. No
+// where 0 is the lower node of the cell. A Real is a number for one axis, or a Quad with one number for each axis. No
 // particle touches a node that is `support` cells away or more.
 
-/// Piecewise linear ("tent") functions.
+/// Piecewise linear shape functions ("tent" functions).
 struct LinearAxis {
   static constexpr int nodes = 2;
-  static constexpr int ghostNodes = 0;  ///< number of layers of nodes beyond those of its cell that a particle touches
+  /// Number of layers of nodes, beyond the nodes of its own cell, to which a particle contributes.
+  static constexpr int ghostNodes = 0;
   static constexpr bool hasSize = false;
   static double support(double) { return 1; }
 
@@ -51,10 +52,10 @@ struct GimpAxis {
   }
 
  private:
-  // The particle lies within the cells on either side of its middle node, so much of it below and so much above, and
-  // the mean of a straight line is its value in the middle. Nothing here has branches or takes large numbers from each
-  // other: where a particle barely touches a node, S and its slope are small, and the force over the mass that they
-  // make is only right if both are right to the last digits.
+  // The particle lies within the cells on either side of its middle node, one part below the node and one above. The
+  // mean of a linear function over a part is its value in the middle of the part. The code has no branches and does not
+  // subtract large numbers: where a particle barely touches a node, S and its slope are small, and the ratio of force
+  // to mass that they determine is accurate only if both are accurate to the last digits.
 
   template <class Real>
   [[gnu::always_inline]] static Real positive(const Real& r) {
@@ -62,7 +63,7 @@ struct GimpAxis {
   }
 };
 
-/// Quadratic B-splines about the nodes; Steffen, Kirby & Berzins, Int. J. Numer. Meth. Engng 76 (2008) 922.
+/// Quadratic B-splines centred at the nodes; Steffen, Kirby & Berzins, Int. J. Numer. Meth. Engng 76 (2008) 922.
 struct QuadraticAxis {
   static constexpr int nodes = 3;
   static constexpr int ghostNodes = 1;
@@ -80,7 +81,7 @@ struct QuadraticAxis {
   }
 };
 
-/// Cubic B-splines about the nodes; same source.
+/// Cubic B-splines centred at the nodes; source as for QuadraticAxis.
 struct CubicAxis {
   static constexpr int nodes = 4;
   static constexpr int ghostNodes = 1;

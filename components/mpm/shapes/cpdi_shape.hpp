@@ -13,12 +13,12 @@ struct VectorOf {
   using type [[gnu::vector_size(count * sizeof(Number))]] = Number;
 };
 
-/// Convected particle domains: a particle is a parallelepiped that F deforms, and S_i the mean over it of what lies
-/// linearly between the values of the tent function at its corners,
+/// Convected particle domains: a particle is a parallelepiped deformed by F, and S_i is the mean over it of the linear
+/// interpolation between the values of the tent function at its corners,
 ///   S_i = 1/2^D sum_c N_i(x_c),   grad S_i = 1/2^D sum_c R^(-T) sigma_c N_i(x_c),   x_c = x_p + R sigma_c,
 /// with sigma_c = (+-1, …) and the half edges R = F diag(size h) / 2; Sadeghirad, Brannon & Burghardt, Int. J. Numer.
-/// Meth. Engng 86 (2011) 1435. A domain that reaches farther than a cell from its middle is shrunk to that, as Homel,
-/// Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31, do.
+/// Meth. Engng 86 (2011) 1435. A domain that extends farther than one cell from its centre is shrunk until it extends
+/// one cell, as in Homel, Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31.
 ///
 /// Where `Axisymmetric`, the first axis is the radius; the means are those of the plane and S_i / r is taken at the
 /// particle, as in Uintah.
@@ -37,19 +37,21 @@ struct ConvectedShape {
 
   struct Stencil {
     static constexpr int dimension = D;
-    static constexpr int nodes = 4;  ///< number along each axis: those of the particle's cell and its neighbours
+    /// Number of nodes along each axis: those of the particle's cell and its neighbours.
+    static constexpr int nodes = 4;
     static constexpr int corners = 1 << D;
     static constexpr double share = 1.0 / corners;
     static constexpr bool axisymmetric = Axisymmetric;
 
-    /// A number for each corner: that of corner c lies at sigma_c, whose component d is +1 if bit d of c is set.
+    /// One number for each corner: corner c lies at sigma_c, whose component d is +1 if bit d of c is set.
     using Corners = typename VectorOf<double, corners>::type;
 
     Index<D> first;
-    std::array<Corners, D> cellOf;         ///< the lower node of the cell around each corner, counted from `first`
-    std::array<Corners, corners> weights;  ///< values of the tent functions of that cell's nodes
-    std::array<Corners, D> slope;          ///< contribution of each corner to the gradient, 1/m
-    double inverseRadius = 0;              ///< 1/m; 0 if the scene is not axisymmetric
+    /// Index of the lower node of the cell that contains each corner, counted from `first`.
+    std::array<Corners, D> cellOf;
+    std::array<Corners, corners> weights;  ///< values of the tent functions of the nodes of that cell
+    std::array<Corners, D> slope;          ///< contribution of each corner to the gradient [1/m]
+    double inverseRadius = 0;              ///< inverse radius [1/m]; 0 if the scene is not axisymmetric
 
     Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
         : Stencil(CellFrame<D>(level, cell), cell, x, extent) {}
@@ -72,7 +74,7 @@ struct ConvectedShape {
       weights = Linear<D>::weights([&](int d) { return lower[d]; }, [&](int d) { return upper[d]; });
     }
 
-    /// Calls `visit(node, S, gradient)` for every node of the cells around, in the same order for every particle.
+    /// Calls `visit(node, S, gradient)` for every node of the surrounding cells, in the same order for every particle.
     template <class Visit>
     void forEachNode(Visit&& visit) const {
       std::array<Quad, around> sums{};  // the gradient, and the value in the last lane
@@ -95,7 +97,7 @@ struct ConvectedShape {
       });
     }
 
-    /// S_i of a node.
+    /// The value S_i of a node.
     double valueAt(const Index<D>& node) const {
       double value = 0;
       for (int c = 0; c < corners; ++c)
@@ -136,7 +138,7 @@ struct ConvectedShape {
       for (int c = 0; c < corners; ++c) sign[c] = (c >> j) & 1 ? 1 : -1;
       return sign;
     }
-    /// The index of a node among those of the cell around a corner, or -1.
+    /// The index of a node among the nodes of the cell that contains corner c; -1 if it is none of them.
     int nodeOfCell(const Index<D>& node, int c) const {
       int k = 0;
       for (int d = 0; d < D; ++d) {
@@ -154,7 +156,7 @@ using CpdiShape = ConvectedShape<D>;
 template <int D>
 using AxisymmetricCpdiShape = ConvectedShape<D, true>;
 
-/// S_i / r of a node, 1/m; 0 if the scene is not axisymmetric.
+/// S_i / r of a node [1/m]; 0 if the scene is not axisymmetric.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0) double hoopOf(const Stencil& stencil, const Index<D>& node) {
   return Stencil::axisymmetric ? stencil.inverseRadius * stencil.valueAt(node) : 0.0;

@@ -7,7 +7,7 @@
 
 namespace tushar::mpm {
 
-/// Multilinear shape functions: a particle in a cell touches the 2^D nodes of the cell.
+/// Multilinear shape functions: a particle contributes to the 2^D nodes of its cell.
 ///
 ///   S_i(x) = product over the axes of max(0, 1 - |x - x_i| / h)
 ///
@@ -15,19 +15,20 @@ namespace tushar::mpm {
 template <int D>
 struct Linear {
   static constexpr int nodes = 1 << D;
-  /// Layers of cells around a patch whose particles touch its nodes.
+  /// Number of layers of cells around a patch whose particles contribute to the nodes of the patch.
   static constexpr int reach = 1;
   /// One number for each node of a cell, in the order of `node`.
   using Weights = std::array<double, nodes>;
 
-  /// Node k of a cell: bit d of k is set if it is the upper node along axis d.
+  /// The index of node k of a cell: bit d of k is set if it is the upper node along axis d.
   static constexpr Index<D> node(Index<D> cell, int k) {
     for (int d = 0; d < D; ++d) cell[d] += (k >> d) & 1;
     return cell;
   }
 
-  /// S_i of each node of a cell at a point x in it. Along axis d `lower(d)` and `upper(d)` are the factors 1 - |x -
-  /// x_i| / h of the lower and of the upper nodes; their sum is 1. They are numbers, or vectors of one for each point.
+  /// S_i of each node of a cell at a point x in the cell. Along axis d `lower(d)` and `upper(d)` are the factors 1 - |x
+  /// - x_i| / h of the lower and of the upper nodes; their sum is 1. They are numbers, or vectors of one for each
+  /// point.
   template <class Lower, class Upper>
   [[gnu::always_inline]] static auto weights(const Lower& lower, const Upper& upper) {
     std::array<std::remove_cvref_t<decltype(upper(0))>, nodes> s;
@@ -42,7 +43,7 @@ struct Linear {
     }
     return s;
   }
-  /// S_i of each node of a cell at the coordinates `xi` in [0,1] within it.
+  /// S_i of each node of a cell at the coordinates `xi` in [0,1] within the cell.
   static Weights weights(const Vec<D>& xi) {
     return weights([&](int d) { return 1.0 - xi[d]; }, [&](int d) { return xi[d]; });
   }
@@ -54,11 +55,11 @@ struct Linear {
   }
 };
 
-/// The geometry of a cell, which determines the coordinates of particles in it.
+/// The geometry of a cell, from which the coordinates of particles in it are computed.
 template <int D>
 struct CellFrame {
-  Vec<D> origin;          ///< its lower corner, m
-  Vec<D> inverseSpacing;  ///< 1/m
+  Vec<D> origin;          ///< lower corner of the cell [m]
+  Vec<D> inverseSpacing;  ///< inverse spacing [1/m]
 
   CellFrame(const Level& level, const Index<D>& cell) {
     for (int d = 0; d < D; ++d) {

@@ -6,8 +6,9 @@
 
 namespace tushar::mpm {
 
-// The same along the radius of an axisymmetric problem, per radian: `r` is the particle's distance from the axis and
-// `lowerNode` that of the lower node of its cell, in cells. `hoop` is S_i / r, the velocity's part in the hoop strain.
+// Shape functions along the radius of an axisymmetric problem, as in axis_shapes.hpp but per radian: `r` is the
+// particle's distance from the axis and `lowerNode` that of the lower node of its cell, in cells. `hoop` is S_i / r,
+// the velocity's part in the hoop strain.
 
 template <class Axis>
 struct RadialAxis;
@@ -22,7 +23,8 @@ struct RadialAxis<LinearAxis> {
   }
 };
 
-/// Means over the particle's extent weighted by the radius; Nairn & Guilkey, Int. J. Numer. Meth. Engng 101 (2015) 127.
+/// Means over the particle's extent, weighted by the radius; Nairn & Guilkey, Int. J. Numer. Meth. Engng 101 (2015)
+/// 127.
 template <>
 struct RadialAxis<GimpAxis> {
   static int fill(double r, double lowerNode, double size, std::array<double, 3>& s, std::array<double, 3>& ds,

@@ -7,47 +7,49 @@
 
 namespace tushar::mpm {
 
-/// The data of a particle that a shape function needs besides its position.
+/// The data of a particle that shape functions need besides its position.
 template <int D>
 struct Extent {
-  Vec<D> size = Vec<D>::Ones();  ///< size at the start, in cells
-  /// If `Shape::deforms`: column j is half the edge that lay along axis j at the start, deformed by F, in cells.
+  Vec<D> size = Vec<D>::Ones();  ///< initial size in cells
+  /// If `Shape::deforms`: half the edges in cells; column j is the deformed edge that was initially along axis j.
   Eigen::Matrix<double, D, D> halfEdges;
 };
 
-/// The factors of a row of nodes along the first axis: of S, then of its slopes along the second and third.
+/// The factors of a row of nodes along the first axis: of S, then of its slopes along the second and third axes.
 template <int D>
 using RowFactors = std::array<double, D>;
 
-/// Shape functions of D dimensions that are products of those along each axis. Where `Axisymmetric`, the first axis is
-/// the radius and the second, if any, the axis of symmetry; all integrals are per radian.
+/// Shape functions in D dimensions that are products of one-dimensional ones. If `Axisymmetric`, the first axis is the
+/// radius and the second, if any, the axis of symmetry; all integrals are per radian.
 template <int D, class Axis, bool Axisymmetric = false>
 struct TensorShape {
   static constexpr int dimension = D;
-  /// Number of layers of nodes beyond those of a patch that its particles touch, and of layers of nodes outside the
-  /// grid.
+  /// Number of layers of nodes, beyond the nodes of a patch, to which the patch's particles contribute; also the number
+  /// of layers of nodes outside the grid.
   static constexpr int ghostNodes = Axis::ghostNodes;
-  /// Layers of cells around a patch whose particles touch its nodes.
+  /// Number of layers of cells around a patch whose particles contribute to the nodes of the patch.
   static constexpr int reach = 1 + Axis::ghostNodes;
   static constexpr bool hasSize = Axis::hasSize;
   static constexpr bool deforms = false;
   static constexpr bool axisymmetric = Axisymmetric;
 
-  /// The extent of a particle's support along each axis, in cells; nodes at this distance or farther are not touched.
+  /// The extent of a particle's support along each axis, in cells; the particle does not contribute to nodes at this
+  /// distance or farther.
   static Vec<D> support(const Extent<D>& extent) {
     Vec<D> reaches;
     for (int d = 0; d < D; ++d) reaches[d] = Axis::support(extent.size[d]);
     return reaches;
   }
 
-  /// S_i and its gradient (1/m) at every node i that a particle touches; and, where axisymmetric, S_i / r (1/m).
+  /// S_i and its gradient [1/m] at every node i to which a particle contributes; in axisymmetric scenes also S_i / r
+  /// [1/m].
   struct Stencil {
     static constexpr int dimension = D;
-    static constexpr int nodes = Axis::nodes;  ///< number along each axis
+    static constexpr int nodes = Axis::nodes;  ///< number of nodes along each axis
     static constexpr bool axisymmetric = Axisymmetric;
 
     Index<D> first;
-    std::array<Quad, Axis::nodes> s, ds;  ///< value and slope along every axis, by index of the node along it
+    std::array<Quad, Axis::nodes> s, ds;  ///< value and slope along every axis, indexed by the node along it
     std::array<double, Axis::nodes> hoop;
 
     Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
@@ -62,7 +64,7 @@ struct TensorShape {
       if constexpr (Axisymmetric) fillRadially(frame, cell, x, extent);
     }
 
-    // What the nodes of a row have, and rows j, k along the second and third axis.
+    // The factors of the nodes of a row, and of the rows j, k along the second and third axes.
     double valueAlongRow(std::size_t i) const { return s[i][0]; }
     double slopeAlongRow(std::size_t i) const { return ds[i][0]; }
     double hoopAlongRow(std::size_t i) const { return hoop[i]; }
@@ -75,7 +77,7 @@ struct TensorShape {
         return {s[j][1] * s[k][2], ds[j][1] * s[k][2], s[j][1] * ds[k][2]};
     }
 
-    /// Calls `visit(node, S, gradient)` in the same order of nodes for every particle.
+    /// Calls `visit(node, S, gradient)` for every node i, in the same order for every particle.
     template <class Visit>
     [[gnu::always_inline]] void forEachNode(Visit&& visit) const {
       constexpr int n = Axis::nodes;
@@ -104,7 +106,7 @@ struct TensorShape {
       }
       visit(first + k, value, gradient);
     }
-    /// Fills the first axis if it is the radius.
+    /// Fills the factors along the first axis if it is the radius.
     void fillRadially(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
       const double inverse = frame.inverseSpacing[0];
       std::array<double, Axis::nodes> value, slope;
@@ -118,14 +120,14 @@ struct TensorShape {
     }
   };
 
-  /// The stencils of several particles of a cell, with the same bits as Stencil, computed in advance with one lane per
-  /// particle, so that loops over nodes only load them.
+  /// The stencils of several particles of a cell, with the same bits as Stencil. They are computed in advance with one
+  /// lane per particle, so that loops over nodes only load them.
   class Stencils {
    public:
     static constexpr int dimension = D;
     static constexpr int nodes = Axis::nodes;
 
-    /// One of these stencils, for loops over rows of nodes.
+    /// One of these stencils, used in loops over rows of nodes.
     struct Member {
       static constexpr int dimension = D;
       static constexpr int nodes = Axis::nodes;
@@ -147,7 +149,8 @@ struct TensorShape {
       }
     };
 
-    /// For particles at x (m) in a cell, with their sizes at the start (cells); lanes without a particle repeat one.
+    /// Constructs stencils for particles at x [m] in a cell, with their initial sizes [cells]; lanes without a particle
+    /// repeat another one.
     Stencils(const CellFrame<D>& frame, const Index<D>& cell, const std::array<Lanes, D>& x,
              const std::array<Lanes, D>& size)
         : cell_(cell) {
@@ -162,7 +165,7 @@ struct TensorShape {
       multiplyRows();
     }
 
-    // Of all of them.
+    // The same factors, for all of these stencils.
     Lanes valueAlongRow(std::size_t i) const { return s_[0][i]; }
     Lanes slopeAlongRow(std::size_t i) const { return ds_[0][i]; }
     std::array<Lanes, D> rowFactors(std::size_t j, std::size_t k) const {
@@ -203,7 +206,7 @@ struct TensorShape {
     }
 
     Index<D> cell_;
-    std::array<Real, D> first_;  ///< first touched node along each axis, from the lower node of the cell
+    std::array<Real, D> first_;                  ///< factors for each axis and each node along it
     std::array<std::array<Real, n>, D> s_, ds_;  ///< by axis and node along it
     std::array<Real, Axisymmetric ? n : 0> hoop_;
     std::array<std::array<Real, D>, D == 1 ? 0 : rows> factors_;
@@ -223,7 +226,7 @@ using AxisymmetricLinearShape = TensorShape<D, LinearAxis, true>;
 template <int D>
 using AxisymmetricGimpShape = TensorShape<D, GimpAxis, true>;
 
-/// S_i / r of a node, 1/m; 0 if the scene is not axisymmetric.
+/// S_i / r of a node [1/m]; 0 if the scene is not axisymmetric.
 template <class Stencil, int D = Stencil::dimension>
 double hoopOf(const Stencil& stencil, const Index<D>& node) {
   if constexpr (!Stencil::axisymmetric) return 0;

@@ -5,8 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-/// A function of p.color: linear between the entries of a table, which are in order of increasing `color`, and constant
-/// outside their range. Throws nothing; the table must not be empty.
+/// Interpolates a function of p.color from a table: linearly between its entries, which are in order of increasing
+/// `color`, and with constant values outside their range. The table has at least one entry.
 template <class Table, class Value>
 double valueByColor(const Table& table, double color, Value&& value) {
   const auto upper = std::find_if(table.begin(), table.end(), [&](const auto& entry) { return color <= entry.color; });

@@ -7,12 +7,12 @@
 
 namespace tushar::mpm::solid {
 
-/// Particle variables, including those that the gas methods also have.
+/// Labels of particle variables, including those that the gas methods also have.
 namespace p {
 using namespace mpm::p;
 inline constexpr ParticleLabel<Matrix3> stress{"p.stress", "Pa", "Cauchy stress"};
 inline constexpr ParticleLabel<Matrix3> deformationMeasure{"p.deformationMeasure", "1", "deformation gradient"};
-inline constexpr ParticleLabel<Matrix3> velocityGradient{"p.velGrad", "1/s", "velocity gradient of the last step"};
+inline constexpr ParticleLabel<Matrix3> velocityGradient{"p.velGrad", "1/s", "velocity gradient of the latest step"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> displacement{"p.displacement", "m", "displacement since the start"};
 template <int D>
@@ -39,19 +39,19 @@ template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
 inline constexpr ParticleLabel<Matrix3> scaleFactor{"p.scalefactor", "m",
                                                     "edges of the particle, deformed by F, one per column"};
-/// The work on a particle since the start, J: one number for each variable of total::work.
+/// The work on a particle since the start [J]: one number for each label in total::work.
 using Works = Eigen::Matrix<double, 1, 7, Eigen::DontAlign | Eigen::RowMajor>;
 inline constexpr ParticleLabel<Works> work{
     "p.work", "J",
     "work on the particle since the start: by loads and gravity, by faces of the grid, by contact; dissipated by "
     "viscosity and damping, stored as strain, dissipated by plastic flow; and 1/2 m v^2 at the start"};
-inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat per time from loads"};
+inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat flow from loads"};
 inline constexpr ParticleLabel<int> loadCurves{
     "p.loadCurveID", "1",
     "number of the load on the particle, or 0, plus the numbers of further loads times 256 and 65536"};
 }  // namespace p
 
-/// Node variables.
+/// Labels of node variables.
 namespace g {
 using namespace mpm::g;
 inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
@@ -98,13 +98,13 @@ inline constexpr NodeLabel<double> contactTemperatureRate{
 inline constexpr NodeLabel<double> temperatureRate{"g.temperatureRate", "K/s", "rate of change of the temperature"};
 }  // namespace g
 
-/// Cell variables.
+/// Labels of cell variables.
 namespace c {
 inline constexpr CellLabel<double> stableTimeStep{
     "c.stableTimeStep", "s", "time in which the fastest wave of the cell's particles crosses the cell"};
 }  // namespace c
 
-/// Totals over all particles.
+/// Labels of totals over all particles.
 namespace total {
 using namespace mpm::total;
 inline constexpr ReductionLabel<VectorSum> angularMomentum{
@@ -115,10 +115,11 @@ inline constexpr ReductionLabel<Sum> volume{"TotalVolumeDeformed", "m^3", "volum
 inline constexpr ReductionLabel<Sum> thermalEnergy{"ThermalEnergy", "J", "mass times specific heat times temperature"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N",
-    "force by which the master of a contact of type rigid or specified resists the stresses of the others"};
+    "force by which the master of a contact of type rigid or specified resists the stresses of the other materials"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
-    "StrainEnergy", "J", "strain energy of elastic materials; for others, its increase in the last step, as in Uintah"};
-/// Sums of the numbers of p.work, in their order.
+    "StrainEnergy", "J",
+    "strain energy of elastic materials; for others, its increase in the latest step, as in Uintah"};
+/// Labels of the sums of the components of p.work, in the same order.
 inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"ExternalWork", "J", "work of loads and gravity since the start"},
     {"BoundaryWork", "J", "work of those sides of the grid where a velocity is given, since the start"},
@@ -130,17 +131,17 @@ inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"PlasticWork", "J", "energy dissipated by plastic flow since the start, in models with p.plasticStrain"},
     {"KineticEnergyAtStart", "J", "initial kinetic energy of the particles that have not left the grid"},
 }};
-/// The action of the body on a face of the grid.
+/// Labels of the force of the body on a face of the grid, and of the area of the body on this face.
 struct OnFace {
   ReductionLabel<VectorSum> force;
   ReductionLabel<Sum> area;
 };
-/// `force` and `area` are the names of both.
+/// Makes both labels; `force` and `area` are their names.
 constexpr OnFace onFace(std::string_view force, std::string_view area) {
   return {{force, "N", "force of the body on this face of the grid"},
           {area, "m^2", "area of the body on this face of the grid"}};
 }
-/// The faces of the grid in the order x-, x+, y-, y+, z-, z+.
+/// Labels for the faces of the grid in the order x-, x+, y-, y+, z-, z+.
 inline constexpr std::array<OnFace, 6> onFaces{
     onFace("BndyForce_xminus", "BndyContactArea_xminus"), onFace("BndyForce_xplus", "BndyContactArea_xplus"),
     onFace("BndyForce_yminus", "BndyContactArea_yminus"), onFace("BndyForce_yplus", "BndyContactArea_yplus"),

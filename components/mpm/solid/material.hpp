@@ -10,24 +10,24 @@
 
 namespace tushar::mpm::solid {
 
-/// A body at the start: its shape and its state, which may vary in space.
+/// The initial shape and state of a body; the state may vary in space.
 struct Body {
-  Location where;  ///< in the scene
+  Location where;  ///< location of its tag in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
-  Index3 particlesPerCell{{1, 1, 1}};  ///< along x, y, z
-  input::VectorExpression velocity;    ///< m/s
-  input::Expression temperature;       ///< K
+  Index3 particlesPerCell{{1, 1, 1}};  ///< number of particles per cell along x, y, z
+  input::VectorExpression velocity;    ///< velocity [m/s]
+  input::Expression temperature;       ///< temperature [K]
   double color = 0;
-  int levels = 1;  ///< number of particle sizes that fill its shape; negative: no particle extends beyond it
-  /// Rows of A, and b: its particles start at A X + b (m) instead of X.
+  int levels = 1;  ///< number of particle sizes that fill the shape; negative: no particle extends beyond the shape
+  /// Rows of A, and b: the body's particles start at A X + b [m] instead of X.
   Vec3 affineRow0 = Vec3::UnitX(), affineRow1 = Vec3::UnitY(), affineRow2 = Vec3::UnitZ(), affineShift = Vec3::Zero();
-  std::shared_ptr<const Seeds> seeds;  ///< initial positions of its particles; null: in equal parts of cells
+  std::shared_ptr<const Seeds> seeds;  ///< initial positions of the body's particles; null: in equal parts of cells
 
   Matrix3 affineMatrix() const;
 };
 
-/// The initial position of the k-th particle of a cell, m, rounded as in Uintah, because the last digit of a point on a
-/// face decides whether it is inside the shape.
+/// The initial position of the k-th particle of a cell [m], rounded as in Uintah, because the last digit of a point on
+/// a face decides whether the point is inside the shape.
 template <int D>
 Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const Index<D>& k) {
   Vec<D> at;
@@ -39,7 +39,7 @@ Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const I
 }
 
 /// Calls `visit(k, point)` for each particle of a body that starts in a cell: `k` is its index in the cell, `point` its
-/// position, m, rounded by placeOf.
+/// position [m], rounded by placeOf.
 template <int D, class Visit>
 void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cell, Visit&& visit) {
   Box places{{}, Index3::filled(1)};
@@ -50,32 +50,34 @@ void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cel
   });
 }
 
-/// A material: its response to deformation, and the bodies made of it.
+/// A material: its constitutive model and constants, and the bodies made of it.
 struct Material {
   std::string name;
-  int index = 0;       ///< its index in the scene
-  double density = 0;  ///< at the start, kg/m^3
+  int index = 0;       ///< index of the material in the scene
+  double density = 0;  ///< initial density [kg/m^3]
   std::shared_ptr<const Model> model;
-  double specificHeat = 0;         ///< J/(kg K)
-  double meltTemperature = 0;      ///< K
-  double roomTemperature = 0;      ///< K
-  double thermalConductivity = 0;  ///< W/(m K)
-  double thermalExpansion = 0;     ///< of lengths, 1/K
-  bool isRigid = false;            ///< its stress exerts no force
-  bool transmitsForce = false;     ///< it moves as one rigid body under the sum of the forces on it
-  bool mayLeadContact = true;      ///< planes that separate it from others (see SeparatingPlane) may belong to it
+  double specificHeat = 0;         ///< specific heat [J/(kg K)]
+  double meltTemperature = 0;      ///< melting temperature [K]
+  double roomTemperature = 0;      ///< room temperature [K]
+  double thermalConductivity = 0;  ///< thermal conductivity [W/(m K)]
+  double thermalExpansion = 0;     ///< coefficient of linear expansion [1/K]
+  bool isRigid = false;            ///< whether the stress exerts no force
+  bool transmitsForce = false;     ///< whether the material moves as one rigid body under the sum of the forces on it
+  /// Whether this material may provide the planes that separate it from other materials (see SeparatingPlane).
+  bool mayLeadContact = true;
   Damage damage;
   Erosion erosion;
   std::vector<Body> bodies;
 
   MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
-  /// The density of a particle at F = I, kg/m^3; bodies that start under pressure have `density` at the start.
+  /// The density of a particle at F = I [kg/m^3]; differs from `density`, the density at the start, in bodies with an
+  /// initial pressure.
   double undeformedDensity() const { return density * model->initialVolumeRatio(); }
-  /// Whether particles may lose strength, so that they bear less than the stress of the constitutive model.
+  /// Whether particles may lose strength and then support less than the stress of the constitutive model.
   bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }
 };
 
-/// Largest number of state variables of any material's model.
+/// Largest number of state variables of the model of any material.
 inline int largestStateOf(const std::vector<Material>& materials) {
   int size = 0;
   for (const Material& material : materials) size = std::max(size, material.model->stateSize());

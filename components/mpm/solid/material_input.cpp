@@ -20,13 +20,13 @@ using input::Schema;
 
 namespace {
 
-/// Calls `visit` with a model of each type.
+/// Calls `visit` with one model of each type.
 template <class Visit>
 void forEachModel(Visit&& visit) {
   std::apply([&](const auto&... model) { (visit(model), ...); }, AllModels{});
 }
 
-/// A model's own tags, and the attribute that selects it.
+/// The tags of a model, and the attribute that selects the model.
 template <class M>
 const Schema<M>& modelSchema() {
   static const Schema<M> schema =
@@ -40,11 +40,11 @@ std::vector<std::string> modelNames() {
   return names;
 }
 
-/// Uintah's older names of models that are available.
+/// Uintah's older names for models that are available.
 const std::map<std::string, std::string> otherWords{
     {"arenisca", "Arenisca"}, {"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
 
-/// Models of Uintah that are not available, and the most similar ones.
+/// Models of Uintah that are not available, each with the most similar one.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
     {"membrane", "comp_neo_hook, with bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
@@ -69,10 +69,10 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
-/// Whether a tag that names Arenisca3 has the tags of Arenisca alone, as some scenes of Uintah do.
+/// Whether a tag that names Arenisca3 has the tags of Arenisca, as in some scenes of Uintah.
 bool hasOlderTags(const Element& tag) { return tag.child("p4_fluid_effect") && !tag.child("STREN"); }
 
-/// The model of a tag, by its name in Tushar.
+/// The type of the model in a tag, as Tushar's name.
 std::string typeOf(const Element& tag) {
   const std::string type = tag.attribute("type").value_or("");
   const auto yields = tag.child("usePlasticity");
@@ -103,7 +103,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   if (!material.model) refuseModel(*tag, type, diagnostics);
 }
 
-/// The tag, read as each of the models.
+/// The schemas of the tag, one for each model.
 std::vector<input::Alternative> modelAlternatives() {
   std::vector<input::Alternative> alternatives;
   forEachModel([&]<class M>(const M&) {
@@ -125,7 +125,7 @@ void describeModels(std::ostream& out, int indent) {
 
 void checkAffine(const Body& body, const Element& element, Diagnostics& diagnostics) {
   if (!(body.affineMatrix().determinant() > 0))
-    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A must be positive");
+    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A is not positive");
 }
 
 Schema<Body> bodyTags() {
@@ -135,7 +135,7 @@ Schema<Body> bodyTags() {
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
              input::nonNegative())
-      .value("color", &Body::color, 0, "1", "a number that its particles store as p.color")
+      .value("color", &Body::color, 0, "1", "a number that the particles of the body store as p.color")
       .value("numLevelsParticleFilling", &Body::levels, 1, "1",
              "number of particle sizes, each half the previous one, that fill the shape up to its surface; negative: "
              "no particle extends beyond the surface",
@@ -165,7 +165,7 @@ const Schema<Body>& bodySchema() {
   return schema;
 }
 
-/// Uintah's tags in a material that have no effect here, and those that are not available.
+/// Accepts Uintah's tags in a material that have no effect in Tushar, and refuses those that are not available.
 void acceptUintahsTags(Schema<Material>& tags) {
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
@@ -211,7 +211,7 @@ const Schema<Material>& materialSchema() {
                 describeModels)
         .forms({input::onceForm("constitutive_model", modelAlternatives, 1)})
         .custom("damage_model", readDamage, {"damage_model", "erosion"},
-                "when particles fail, and which strength they have after failure", describeDamage)
+                "when particles fail, and what strength they then have", describeDamage)
         .forms(damageForms())
         .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
     acceptUintahsTags(material);
@@ -229,7 +229,7 @@ void noteCommonNames(const MaterialProperties::List& list, const Element& elemen
                        fmt::format("another material is also called '{0}': this one is saved as '{0}.{1}'", name, m));
 }
 
-/// Checks that contacts name existing materials; excess numbers in <materials> are ignored, as in Uintah.
+/// Checks that contacts name existing materials; indices in <materials> that are too large are ignored, as in Uintah.
 void checkContacts(const MaterialProperties::List& list, const Element& element, Diagnostics& diagnostics) {
   const int count = static_cast<int>(list.materials.size());
   for (const Element& tag : element.children("contact"))
@@ -246,7 +246,7 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
 
 const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
   static const Schema<MaterialProperties::ThermalContact> thermalContact(
-      "thermal_contact", "If this is given, materials that share a node have the same temperature there.");
+      "thermal_contact", "With this tag, materials that share a node have the same temperature at the node.");
   static const Schema<MaterialProperties::List> list =
       Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and their contact.")
           .list("material", &MaterialProperties::List::materials, materialSchema(), "a material", 1)

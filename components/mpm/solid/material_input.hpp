@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 
 /// The `MaterialProperties` section.
 struct MaterialProperties {
-  /// A tag without content, whose presence has an effect.
+  /// A tag without content; its presence has an effect.
   struct ThermalContact {};
   struct List {
     std::vector<Material> materials;
@@ -20,7 +20,8 @@ struct MaterialProperties {
   } mpm;
 };
 
-/// How the section is read; `besideGas`: it also describes a gas, which another schema reads.
+/// The schema of `MaterialProperties`; `besideGas`: whether the section also describes a gas, which another schema
+/// reads.
 const input::Schema<MaterialProperties>& propertiesSchema(bool besideGas = false);
 
 }  // namespace tushar::mpm::solid

@@ -21,26 +21,32 @@ struct Method {
   bool xpic = false;              ///< whether velocities are updated by XPIC of order 2
   bool affine = false;            ///< whether velocities are transferred to the grid by APIC
   bool projectsGradient = false;  ///< whether velocities are transferred to the grid with their gradients
-  Vec3 gravity = Vec3::Zero();    ///< m/s^2
-  double damping = 0;             ///< artificial_damping_coeff, 1/s
+  Vec3 gravity = Vec3::Zero();    ///< gravity [m/s^2]
+  double damping = 0;             ///< artificial_damping_coeff [1/s]
   std::optional<ArtificialViscosity> viscosity;
-  double minimumMassForAcceleration = 1e-199;     ///< kg
-  std::optional<double> maximumParticleVelocity;  ///< m/s
-  bool removesLost = true;                        ///< those turned inside out or thrown out; false: the run ends
-  int minimumSubcyclesForF = 1;    ///< -n: F follows from the series of exp(L dt) up to the power n instead
-  Vec3 commonSize = Vec3::Ones();  ///< size of all particles at the start, in cells, unless each keeps its own
-  std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid does not use
-  bool keepsSizes = false;         ///< each particle keeps its size
-  bool keepsDomains = false;       ///< as edges in any direction, where shape functions follow them
-  double meanWidth = 0;            ///< of a cell over x, y, z, m: the length of the artificial viscosity
-  bool viscosityHeats = false;     ///< artificial_viscosity_heating
-  int nonlocalLayers = 0;          ///< cells within the greatest length of capability::Nonlocal; 0 if there is none
-  bool turnsPressures = false;     ///< keepPressBCNormalToSurface: pressures rotate with the bodies that they act on
-  bool sharesVolume = false;       ///< DoPressureStabilization: the particles of a cell share one change of volume
+  double minimumMassForAcceleration = 1e-199;     ///< mass up to which nodes feel only gravity [kg]
+  std::optional<double> maximumParticleVelocity;  ///< maximum particle velocity [m/s]
+  /// Whether particles that are turned inside out or thrown out are removed; otherwise the run ends.
+  bool removesLost = true;
+  /// Smallest number of substeps for F; -n: F follows from the series of exp(L dt) up to the power n instead.
+  int minimumSubcyclesForF = 1;
+  Vec3 commonSize = Vec3::Ones();  ///< initial size of all particles in cells, unless each particle stores its own size
+  std::array<bool, 3> isThin{};    ///< which of the axes x, y, z the grid does not use
+  bool keepsSizes = false;         ///< whether each particle stores its size
+  /// Whether each particle stores its size as edges of any direction, for shape functions that follow them.
+  bool keepsDomains = false;
+  double meanWidth = 0;         ///< mean cell width over x, y, z [m]: the length in the artificial viscosity
+  bool viscosityHeats = false;  ///< whether artificial viscosity heats particles (artificial_viscosity_heating)
+  /// Number of cells that the largest radius of capability::Nonlocal spans; 0 if no model averages.
+  int nonlocalLayers = 0;
+  /// keepPressBCNormalToSurface: whether pressures rotate with the bodies on which they act
+  bool turnsPressures = false;
+  /// DoPressureStabilization: whether the particles of a cell share one change of volume
+  bool sharesVolume = false;
   bool conductsHeat = true;
-  bool loadsAtCorners = false;  ///< use_CBDI_boundary_condition: pressures act on faces of particles
-  bool contactHeats = false;    ///< do_contact_friction_heating
-  bool thermalContact = false;  ///< materials that share nodes share a temperature
+  bool loadsAtCorners = false;  ///< use_CBDI_boundary_condition: whether pressures act on faces of particles
+  bool contactHeats = false;    ///< do_contact_friction_heating: whether friction in contacts heats bodies
+  bool thermalContact = false;  ///< whether materials that share nodes share a temperature
 };
 
 }  // namespace tushar::mpm::solid

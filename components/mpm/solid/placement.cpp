@@ -19,7 +19,7 @@ namespace {
 
 Vec3 widthsOf(const Level& level) { return {level.cellWidth(0), level.cellWidth(1), level.cellWidth(2)}; }
 
-/// Divides lengths along x, y, z by those of cells; 1 along an axis without width.
+/// Factors that convert lengths along x, y, z to cells; 1 along an axis without width.
 Vec3 inCells(const Level& level) {
   Vec3 inverse = widthsOf(level);
   for (int axis = 0; axis < 3; ++axis) inverse[axis] = inverse[axis] > 0 ? 1 / inverse[axis] : 1;
@@ -28,8 +28,8 @@ Vec3 inCells(const Level& level) {
 
 /// A particle of a cell that is being filled.
 struct Filling {
-  Vec3 at, spacing;  ///< m
-  double share;      ///< of its extent in that of the largest, 1
+  Vec3 at, spacing;  ///< position and spacing [m]
+  double share;      ///< ratio of its extent to that of the largest particle [1]
 };
 
 /// Whether the eight points a quarter of `spacing` away lie in a shape; axes without width are ignored.
@@ -45,7 +45,7 @@ bool overlaps(const Filling& one, const Vec3& point) {
   return ((point - one.at).array().abs() <= 0.5 * one.spacing.array()).all();
 }
 
-/// Adds particles of 2^-k times the size in the gaps between the existing ones.
+/// Adds particles of 2^-k times the full size in the gaps between the existing particles.
 template <int D>
 void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k, std::vector<Filling>& particles) {
   Body finer = body;
@@ -60,8 +60,8 @@ void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k,
   });
 }
 
-/// The particles of a cell, in `levels` sizes, each half the previous one; if `levels` is negative, those that extend
-/// beyond the shape are replaced by smaller ones.
+/// The particles of a cell, in |`levels`| sizes, each half the previous one. If `levels` is negative, smaller particles
+/// replace those that extend beyond the shape.
 template <int D>
 std::vector<Filling> fill(const Level& level, const Body& body, const Index<D>& cell) {
   std::vector<Filling> particles;
@@ -77,7 +77,7 @@ std::vector<Filling> fill(const Level& level, const Body& body, const Index<D>& 
   return particles;
 }
 
-/// Puts a seed into its cell.
+/// Puts a seed into the cell that contains it.
 template <int D>
 void add(const Level& level, const Body& body, const Seed& seed, Seeds& seeds) {
   const Index<D> cell = level.cellOf<D>(level.reduce<D>(seed.at));

@@ -14,15 +14,15 @@ struct Body;
 
 /// A particle that does not start at the centre of an equal part of a cell.
 struct Seed {
-  Vec3 at = Vec3::Zero();            ///< m
-  Matrix3 domain = Matrix3::Zero();  ///< its edges, one per column, in cells
-  double volume = 0;                 ///< in cells
+  Vec3 at = Vec3::Zero();            ///< position [m]
+  Matrix3 domain = Matrix3::Zero();  ///< edges of the particle in cells, one per column
+  double volume = 0;                 ///< volume of the particle, in cells
 };
 
 /// The particles of a body, by the index of the cell in which they start.
 using Seeds = std::map<std::uint64_t, std::vector<Seed>>;
 
-/// A particle in an equal part of a cell; `at` is not set.
+/// The seed of a particle that fills an equal part of a cell; `at` is not set.
 template <int D>
 Seed partOfCell(const Level& level, const Index3& particlesPerCell) {
   Seed seed;
@@ -33,8 +33,8 @@ Seed partOfCell(const Level& level, const Index3& particlesPerCell) {
   return seed;
 }
 
-/// The extent of a particle along the axes of the kernel, in cells; if its edges lie in other directions, that of a
-/// cube with its volume.
+/// The extent of a particle along the axes of the kernel, in cells; if its edges are not parallel to these, the extent
+/// of a cube with its volume.
 template <int D>
 Vec<D> extentOf(const Level& level, const Seed& seed) {
   Vec<D> extent;
@@ -48,8 +48,8 @@ Vec<D> extentOf(const Level& level, const Seed& seed) {
   return isAlongAxes ? extent : Vec<D>(Vec<D>::Constant(std::pow(seed.volume, 1.0 / D)));
 }
 
-/// Finds the seeds of each body whose particles do not start in equal parts of cells: bodies that are filled in levels,
-/// transformed, or smooth cylinders. Throws InputError where one would start outside of the grid.
+/// Finds the seeds of each body whose particles do not start in equal parts of cells: bodies with particles of several
+/// sizes, transformed bodies, and smooth cylinders. Throws InputError if a particle would start outside the grid.
 void placeParticles(const Level& level, std::vector<Body>& bodies);
 
 }  // namespace tushar::mpm::solid

@@ -11,22 +11,23 @@
 
 namespace tushar::mpm::solid {
 
-/// The solids of a scene.
+/// The solids of a scene, and how they are computed.
 struct Problem {
   Method method;
   std::vector<Material> materials;
   std::vector<Contact> contacts;
   Start start;
-  std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: forces move them
-  std::vector<Insertion> insertions = {};                         ///< of particles, in the order of the file
-  std::shared_ptr<const Surroundings> surroundings = nullptr;     ///< null: nothing surrounds them
-  std::vector<InputProblem> notes = {};                           ///< notes on bodies without particles
+  /// Prescribed motion of all bodies; null: forces move them.
+  std::shared_ptr<const PrescribedDeformation> motion = nullptr;
+  std::vector<Insertion> insertions = {};                      ///< insertions of particles, in the order of the file
+  std::shared_ptr<const Surroundings> surroundings = nullptr;  ///< surrounding medium; null: there is none
+  std::vector<InputProblem> notes = {};                        ///< notes on bodies without particles
 };
 
-/// Solids of any shape function, by explicit or implicit steps.
+/// The base class of components for solids, with any shape functions and with explicit or implicit steps.
 class Solids : public Component {
  public:
-  /// Particles store at least `leastState` numbers for their model.
+  /// Particles store at least `leastState` state variables for their model.
   explicit Solids(Problem problem, int leastState = 0)
       : problem_(std::move(problem)),
         state_size_(std::max(leastState, largestStateOf(problem_.materials))),

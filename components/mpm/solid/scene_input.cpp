@@ -35,7 +35,7 @@ std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm) 
 
 namespace {
 
-/// One size for the particles of all bodies, if they agree.
+/// Uses one size for the particles of all bodies, if all have the same size.
 void settleSizes(Problem& problem) {
   const Index3 first = problem.materials.front().bodies.front().particlesPerCell;
   for (int axis = 0; axis < 3; ++axis) problem.method.commonSize[axis] = 1.0 / first[axis];
@@ -47,7 +47,7 @@ void settleSizes(Problem& problem) {
     }
 }
 
-/// Whether a particle of a body starts on the grid. Looks no farther than the first.
+/// Whether any particle of a body starts on the grid. Stops at the first one.
 template <int D>
 bool hasParticles(const Level& level, const Body& body) {
   if (body.seeds) return !body.seeds->empty();
@@ -65,7 +65,7 @@ bool hasParticles(const Level& level, const Body& body) {
   return found;
 }
 
-/// A note on each body without particles, which is outside the grid, or between the points where particles would start.
+/// Notes on bodies without particles: those outside the grid, or between the points at which particles would start.
 std::vector<InputProblem> notesOnEmptyBodies(const Level& level, const std::vector<Material>& materials) {
   std::vector<InputProblem> notes;
   for (const Material& material : materials)

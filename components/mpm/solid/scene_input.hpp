@@ -8,27 +8,28 @@ namespace tushar::mpm::solid {
 
 /// The `PhysicalConstants` section.
 struct PhysicalConstants {
-  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  Vec3 gravity = Vec3::Zero();  ///< gravity [m/s^2]
 };
-/// The schema of the section; `besideGas`: it also describes a gas, which another schema reads.
+/// The schema of `PhysicalConstants`; `besideGas`: whether the scene also has a gas, for which another schema reads the
+/// section.
 const input::Schema<PhysicalConstants>& constantsSchema(bool besideGas = false);
 
-/// The sections of a scene of solids whose <MPM> is read by `mpm`, for the schemas of editors.
+/// The sections of a scene with solids, for the schemas of editors; `mpm` is the schema of <MPM>.
 std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm);
 
-/// Numbers the materials, and names those that have no name or the name of a previous one.
+/// Numbers the materials, and gives a name to those that have none or the name of a previous one.
 void nameMaterials(std::vector<Material>& materials);
 
-/// Requires heat capacities where work or conduction changes temperatures.
+/// Requires specific heats if work or conduction changes temperatures.
 void checkHeat(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
 
-/// Completes the settings that depend on the grid: number of particles of each load, their size, cell widths.
+/// Completes the settings that depend on the grid: number of particles at each load, their size, cell widths.
 void settleParticles(const Level& level, Problem& problem);
 
-/// Throws InputError if an axisymmetric scene, with its <MPM> at `where`, has cells around its axis.
+/// Throws InputError if an axisymmetric scene, with its <MPM> at `where`, has cells on both sides of its axis.
 void refuseCellsAround(const Level& level, const Location& where);
 
-/// Layers of nodes that the scene's interpolator needs beyond the sides of the grid.
+/// Number of layers of nodes beyond the sides of the grid that the scene's interpolator needs.
 int nodesBeyond(const input::Element& root);
 
 }  // namespace tushar::mpm::solid

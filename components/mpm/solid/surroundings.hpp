@@ -11,9 +11,9 @@ class Surroundings {
   virtual ~Surroundings() = default;
   /// Whether the surroundings change p.temperature.
   virtual bool exchangesHeat() const { return false; }
-  /// Adds tasks after those that make the particles of `materials`, which outlive the list.
+  /// Adds tasks after the particles of `materials` have been created; `materials` must outlive the list.
   virtual void scheduleStart(TaskList& tasks, const std::vector<Material>& materials) const = 0;
-  /// Adds tasks after g.record has velocities and masses, and before forces accelerate nodes; they compute
+  /// Adds tasks after g.record has velocities and masses, and before forces accelerate the nodes. The tasks compute
   /// g.surroundingForce. `state` contains the internal variables of the constitutive models.
   virtual void scheduleForces(TaskList& tasks, const std::vector<Material>& materials,
                               const ParticleLabel<double>& state) const = 0;

@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// A second-order tensor in x, y, z, row by row, of numbers or of Lanes, several tensors at once. Always three by
-/// three: a solid in one or two dimensions is in plane strain.
+/// A second-order tensor in x, y, z, row by row, of numbers or, for several tensors side by side, of Lanes. Always
+/// three by three: a solid in one or two dimensions is in plane strain.
 template <class Real>
 using TensorOf = Eigen::Matrix<Real, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
 using Matrix3 = TensorOf<double>;
@@ -26,7 +26,7 @@ inline constexpr Tensor identityTensor{1, 0, 0, 0, 1, 0, 0, 0, 1};
 using Matrix9 = Eigen::Matrix<double, 9, 9, Eigen::DontAlign | Eigen::RowMajor>;
 using Vector9 = Eigen::Matrix<double, 9, 1, Eigen::DontAlign>;
 
-/// The part of a tensor that has no trace.
+/// The deviatoric part of a tensor, which has no trace.
 inline Matrix3 deviator(const Matrix3& a) {
   Matrix3 result = a;
   result.diagonal().array() -= a.trace() / 3;

@@ -12,7 +12,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"refine_particles", "use a larger <res> to give the body more particles"},
     {"use_cohesive_zones", "give the bodies a <contact>"},
     {"do_scalar_diffusion", "heat conduction obeys the same equation"},
-    {"coupled_flow_analysis", "there is one phase"},
+    {"coupled_flow_analysis", "there is only one phase"},
     {"AMR", "solids are on one level: choose a higher <resolution>"},
     {"DoCapDensity", "remove it: density is not capped"},
     {"DoGranularMPM", "remove it"},
@@ -25,7 +25,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
 /// Tags of Uintah that have no effect in Tushar, with the reasons.
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
-    {"create_new_particles", "particles stay as they are"},
+    {"create_new_particles", "particles are not split or merged"},
     {"CanAddMPMMaterial", "all materials exist from the start"},
     {"DeleteGeometryObjects", "shapes are not stored"},
     {"computeNodalHeatFlux", "it has no effect"},
@@ -39,7 +39,7 @@ inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"auto_cycle_min", "belongs to do_scalar_diffusion"},
 };
 
-/// Variables that Uintah's MPM computes, as its scenes save them.
+/// Variables that Uintah's MPM computes, under the names with which scenes save them.
 inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "g.surfnorm",
                                                     "g.normtraction",
@@ -83,7 +83,8 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zminus",
                                                     "BndyContactCellArea_zplus"};
 
-/// Particle variables that Uintah's MohrCoulomb saves under names without p., and older names of variables of Arenisca.
+/// Particle variables that Uintah's MohrCoulomb saves under names without `p.`, and older names of variables of
+/// Arenisca.
 inline const simulation::OtherNames soilNames{
     {"Suction", "p.Suction"},        {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"},
     {"p.plasticStrainVol", "p.evp"}, {"p.elasticStrainVol", "p.eve"},  {"p.kappa", "p.Kappa"},

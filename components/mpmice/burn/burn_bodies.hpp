@@ -6,17 +6,17 @@
 
 namespace tushar::mpmice {
 
-/// The mass that burns in a step: at a surface, the bodies in the cell of the gas burn and, if these are not enough,
-/// those in the cell behind the surface. So a body recedes at its rate, and vanishes cell by cell.
+/// The mass that burns in a step. At a surface, the gas of a cell first burns the bodies in the same cell and, if these
+/// are not enough, those in the cell behind the surface. So a body recedes at its rate, and vanishes cell by cell.
 template <int D>
 class BurntMass {
  public:
-  /// `rate` is the rate at faces, `within` the rate in cells (see NewBurning).
+  /// `rate` is the rate of burning at faces, `within` the rate in cells (see NewBurning).
   BurntMass(const Level& level, CellView<const Vec<D>> rate, CellView<const double> within, CellView<const double> mass,
             double dt)
       : level_(level), rate_(rate), within_(within), mass_(mass), dt_(dt) {}
 
-  /// The fraction of the mass in a cell that burns.
+  /// The fraction of the body's mass in a cell that burns in the step.
   double shareOf(const Index<D>& cell) const {
     if (!(mass_[cell] > 0)) return 0;
     double wanted = wantedFrom(cell);
@@ -27,8 +27,8 @@ class BurntMass {
   }
 
  private:
-  /// Calls `visit(neighbour, mass)` for the faces of a cell, with the mass that burns there: positive if the gas of
-  /// this cell burns it.
+  /// Calls `visit(neighbour, mass)` for the faces of a cell, with the mass that burns at the face. The mass is positive
+  /// if the gas of this cell burns it, and negative if that of the neighbour does.
   template <class Visit>
   void forEachFace(const Index<D>& cell, Visit&& visit) const {
     for (int d = 0; d < D; ++d) {
@@ -42,7 +42,7 @@ class BurntMass {
     forEachFace(cell, [&](const Index<D>&, double burnt) { wanted += std::max(0.0, burnt); });
     return wanted;
   }
-  /// The fraction of the mass burned by the gas of a cell that comes from particles in the same cell.
+  /// The fraction of the mass burned by the gas of a cell that comes from particles in this cell.
   double coveredBy(const Index<D>& cell) const {
     const double wanted = wantedFrom(cell);
     return wanted > mass_[cell] ? mass_[cell] / wanted : 1;
@@ -54,7 +54,7 @@ class BurntMass {
   double dt_;
 };
 
-/// Finds the fraction of the mass in each cell that burns in a step.
+/// Computes the fraction of the mass in each cell that burns in a step.
 template <int D>
 void findBurntShare(const Patch& patch, const Settings& settings, double start, double dt, CellView<const Vec<D>> rate,
                     CellView<const double> within, CellView<const double> mass, CellView<double> share) {
@@ -68,7 +68,7 @@ void findBurntShare(const Patch& patch, const Settings& settings, double start, 
   });
 }
 
-/// The mass of particles after a step: the same fraction of all particles of a cell burns.
+/// Computes the mass of particles after a step. All particles of a cell lose the same fraction of their mass.
 template <int D>
 void burnParticles(const Patch& patch, const mpm::solid::Material& material, const Settings& settings,
                    CellView<const double> share, ParticleView<const double> mass, ParticleView<const double> unburned,

@@ -54,7 +54,7 @@ void measureLoad(const Patch& patch, const std::vector<mpm::solid::Material>& ma
   });
 }
 
-/// What measureLoad finds.
+/// Views of the results of measureLoad.
 struct Load {
   CellView<const double> pressure, crackRadius;
 
@@ -64,7 +64,7 @@ struct Load {
   }
 };
 
-/// How cells waited for their flame before the step; only with an induction time.
+/// Views of the times for which cells had waited for a flame before the step; empty without an induction time.
 struct Waited {
   std::optional<CellView<const double>> mode, time, induction;
 
@@ -90,9 +90,9 @@ struct NewBurnModes {
   }
 };
 
-/// The modes in which cells of an explosive burn, by the state at the start of the step, as Uintah's DDT1 decides
-/// them. Pressures of a cell are those of gas and explosive together, by volume; that of the product is the gas's in
-/// the cell around with most room.
+/// Determines in which mode each cell of an explosive burns, given the state at the start of the step, as Uintah's DDT1
+/// does. The pressure of a cell is the mean pressure of gas and explosive, weighted by volume. The pressure of the
+/// product gas is that of the surrounding cell with the largest free volume.
 template <int D>
 class BurnModes {
  public:
@@ -108,10 +108,10 @@ class BurnModes {
 
   struct Found {
     BurnMode mode = BurnMode::none;
-    double pressure = 0;               ///< at which the cell burns, Pa
-    double waited = 0, induction = 0;  ///< s
+    double pressure = 0;               ///< pressure at which the cell burns [Pa]
+    double waited = 0, induction = 0;  ///< time that the cell has waited, and its induction time [s]
   };
-  /// `before`: only with an induction time. `dt` in s.
+  /// Determines the mode of a cell. `before` has values only with an induction time; `dt` is the time step [s].
   Found find(const Index<D>& cell, const Waited& before, double dt) const {
     if (!(reactant_.mass[cell] > 0)) return {};
     const double own = pressureOf(cell);
@@ -137,16 +137,16 @@ class BurnModes {
         "weaker confinement, or a shorter <maxTime>", "c.burnPressure", level_.cellNumber<D>(cell));
   }
   struct Around {
-    double product = 0;  ///< pressure, Pa
+    double product = 0;  ///< pressure of the product gas [Pa]
     bool isHot = false;
   };
   struct Conditions {
     bool isSurface, lights, cracked, isHot;
     double pressure;
   };
-  /// The way of a flame into a cell.
+  /// The path of a flame into a cell.
   struct Flame {
-    double part = std::numeric_limits<double>::infinity();  ///< of the time along a surface
+    double part = std::numeric_limits<double>::infinity();  ///< time of the flame divided by its time along a surface
     BurnMode from = BurnMode::none;
   };
 
@@ -181,7 +181,8 @@ class BurnModes {
     });
     return found;
   }
-  /// Whether the surface of the body goes through a face of the cell: its nodes would differ in mass by more than 30 %.
+  /// Whether the surface of the body passes through a face of the cell: the masses at its nodes differ by more than 30
+  /// %.
   bool isExposed(const Index<D>& cell) const {
     constexpr double least = 0.3;
     for (int d = 0; d < D; ++d) {
@@ -193,7 +194,8 @@ class BurnModes {
   }
   static bool burns(BurnMode mode) { return mode == BurnMode::surface || mode == BurnMode::cracks; }
 
-  /// With an induction time: a cell waits from the first step with a flame beside it.
+  /// Determines the mode of a cell with an induction time: it waits from the first step in which there is a flame
+  /// beside it.
   Found wait(const Index<D>& cell, const Conditions& now, const Waited& before, double dt) const {
     const bool burned = burns(before.modeIn(cell));
     const Flame flame = burned ? Flame{1, before.modeIn(cell)} : flameInto(cell, now, before);
@@ -214,7 +216,7 @@ class BurnModes {
       found.mode = BurnMode::waiting;
     return found;
   }
-  /// s
+  /// The induction time [s] at a pressure [Pa]; `part` is the ratio of Flame.
   double inductionTime(double part, double pressure) const {
     double width = 0;
     for (int d = 0; d < D; ++d) width += level_.spacing(d) / D;
@@ -238,7 +240,8 @@ class BurnModes {
     });
     return best;
   }
-  /// Between the way from a cell beside and the normal of the surface; 0 where that has none.
+  /// Cosine of the angle between the direction from the neighbour `from` and the normal of the surface; 0 if there is
+  /// no normal.
   double cosineOf(const Index<D>& cell, const Index<D>& from) const {
     const Vec<D> way = level_.cellCentre<D>(cell) - level_.cellCentre<D>(from);
     return std::abs(surface_.space().normal(cell).dot(way)) / way.norm();
@@ -253,7 +256,7 @@ class BurnModes {
   SurfaceAtFaces<D> surface_;
 };
 
-/// Finds how the cells of a patch burn.
+/// Determines how the cells of a patch burn.
 template <int D>
 void findBurnModes(const Patch& patch, const Settings& settings, double dt, const GasInCells<D>& cells,
                    const Reactant& reactant, const Load& load, const Waited& before, const NewBurnModes& fresh) {
@@ -267,7 +270,7 @@ void findBurnModes(const Patch& patch, const Settings& settings, double dt, cons
   });
 }
 
-/// Nothing burns before the first step.
+/// Sets the initial modes: nothing burns before the first step.
 template <int D>
 void startBurnModes(const Patch& patch, CellView<double> mode, CellView<double> waited, CellView<double> induction) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { mode[cell] = waited[cell] = induction[cell] = 0; });

@@ -9,9 +9,9 @@ namespace tushar::mpmice {
 
 /// The surface of bodies at the faces between cells.
 ///
-/// Each cell has an area along an axis, open or wall (see FreeSpace). Through a surface it falls from 1 to 0, so its
-/// steps from cell to cell add up to the area that the surface shows along the axis, wherever it lies; times the
-/// components of the normal they add up to the area itself.
+/// Each cell has an area along an axis, which is open or wall (see FreeSpace). Through a surface, it falls from 1 to 0.
+/// So its steps from cell to cell add up to the projection of the surface along the axis, wherever the surface lies.
+/// Multiplied by the components of the normal, these steps add up to the area of the surface.
 template <int D>
 class SurfaceAtFaces {
  public:
@@ -19,12 +19,12 @@ class SurfaceAtFaces {
       : level_(level), cells_(cells), space_(level, settings, cells) {}
 
   const FreeSpace<D>& space() const { return space_; }
-  /// The area of the cell below a face, along the axis, minus that of the cell above.
+  /// The area along the axis of the cell below a face, minus that of the cell above.
   double step(const Index<D>& above, int axis) const {
     return space_.faces(above - Index<D>::unit(axis), axis).area - space_.faces(above, axis).area;
   }
-  /// The component along the axis, without its sign, of the unit normal at the lower face of a cell: that of the
-  /// gradient of the free volume, weighted 1 2 1 across the axis.
+  /// The magnitude of the component along `axis` of the surface's unit normal at the lower face of a cell. The normal
+  /// is the direction of the gradient of the free volume, weighted 1 2 1 across the axis.
   double normalAlong(const Index<D>& above, int axis) const {
     Vec<D> gradient = Vec<D>::Zero();
     for (int side = 0; side < 2; ++side) {
@@ -45,7 +45,7 @@ class SurfaceAtFaces {
   }
 
  private:
-  /// The weight, in the derivative along `d`, of a cell at `offset` from the face.
+  /// The weight of a cell at `offset` from a cell beside the face in the derivative along `d`.
   static double weight(const Index<D>& offset, int axis, int d) {
     double product = 1;
     for (int k = 0; k < D; ++k)
@@ -58,10 +58,10 @@ class SurfaceAtFaces {
   FreeSpace<D> space_;
 };
 
-/// How a cell burns, of a body with cracks: c.burnMode.
+/// The mode in which a cell of a body with cracks burns: c.burnMode.
 enum class BurnMode { none, surface, cracks, waiting };
 
-/// How cells burn, and at which pressure [Pa]; only of a body with cracks.
+/// Views of how cells burn, and of the pressure at which they burn [Pa]; empty unless the body has cracks.
 struct KnownModes {
   std::optional<CellView<const double>> mode, pressure;
 
@@ -73,14 +73,14 @@ struct KnownModes {
   bool is(const Index<D>& cell, BurnMode one) const {
     return mode && (*mode)[cell] == double(one);
   }
-  /// Whether the surface of a cell may burn.
+  /// Whether the surface in a cell may burn.
   template <int D>
   bool allowSurface(const Index<D>& cell) const {
     return !mode || is(cell, BurnMode::surface);
   }
 };
 
-/// The mass that burns at the lower faces of cells.
+/// Views of how the surface burns at the lower faces of cells, and of what burns within cells.
 template <int D>
 struct NewBurning {
   CellView<Vec<D>> rate, blowing, recoil;
@@ -98,7 +98,7 @@ struct NewBurning {
   }
 };
 
-/// The burning of the surface of a body, according to the state at the start of the step.
+/// Computes how the surface of a body burns, given the state at the start of the step.
 template <int D>
 class BurningSurface {
  public:
@@ -112,7 +112,7 @@ class BurningSurface {
         surface_(level, settings, cells) {}
 
   /// Adds the mass that burns at the lower face of a cell. The new gas leaves the body with the speed u = m (1/rho -
-  /// 1/rho_s), and its recoil is m u: mass and momentum across the surface.
+  /// 1/rho_s) and exerts the recoil m u, so that mass and momentum are conserved across the surface.
   void burn(const Index<D>& above, int axis, const NewBurning<D>& fresh) const {
     const Index<D> below = above - Index<D>::unit(axis);
     const double share = reactant_.shareIn(below, above), step = share > 0 ? surface_.step(above, axis) : 0;
@@ -136,8 +136,9 @@ class BurningSurface {
     fresh.recoil[above][axis] = part * rate * speed;
   }
 
-  /// The mass that burns in a cell that contains a remnant of a body, or a part of a plate thinner than a cell: if no
-  /// neighbouring cell is a wall, areas have no step. Its surface is that of one face.
+  /// Adds the mass that burns in a cell with a remnant of a body, or with a part of a plate thinner than a cell. In
+  /// such a cell, areas have no step unless a neighbouring cell is a wall; the area of one face is taken as that of the
+  /// surface.
   void burnWithin(const Index<D>& cell, const NewBurning<D>& fresh) const {
     if (!(reactant_.mass[cell] > 0) || cells_.isEmpty(cell) || isBesideWall(cell)) return;
     if (!modes_.allowSurface(cell)) return;
@@ -153,7 +154,7 @@ class BurningSurface {
         perWidth * reactant_.shareIn(cell, cell) * model.rate({pressure, reactant_.temperature[cell], density});
   }
 
-  /// What burns in the cracks of a cell.
+  /// Adds the mass that burns in the cracks of a cell.
   void burnCracks(const Index<D>& cell, const NewBurning<D>& fresh) const {
     if (!modes_.is(cell, BurnMode::cracks)) return;
     const double density = reactant_.mass[cell] / reactant_.volume[cell];
@@ -163,7 +164,7 @@ class BurningSurface {
   }
 
  private:
-  /// Whether a body fills most of the area of a neighbouring cell.
+  /// Whether a body fills most of the area along an axis of a neighbouring cell.
   bool isBesideWall(const Index<D>& cell) const {
     bool is = false;
     forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) {
@@ -171,7 +172,8 @@ class BurningSurface {
     });
     return is;
   }
-  /// The greatest temperature of the gas and of bodies that fill more than a fifth of one of the cells at a face.
+  /// The highest temperature of the gas, and of the bodies that fill more than a fifth of one of the cells `gas` and
+  /// `body`.
   double hottestAt(const Index<D>& gas, const Index<D>& body) const {
     double hottest = std::max(reactant_.hottest[gas], reactant_.hottest[body]);
     if (cells_.free[gas] > leastVisible) hottest = std::max(hottest, gasTemperature<D>(settings_, cells_, gas));
@@ -186,7 +188,7 @@ class BurningSurface {
   SurfaceAtFaces<D> surface_;
 };
 
-/// Finds the mass that burns at the faces of the cells of a patch.
+/// Computes the mass that burns at the faces and within the cells of a patch.
 template <int D>
 void findBurning(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
                  const KnownModes& modes, const NewBurning<D>& fresh) {

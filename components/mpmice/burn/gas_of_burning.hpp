@@ -6,19 +6,19 @@
 
 namespace tushar::mpmice {
 
-/// Whether p.strainEnergy of a body is its total strain energy, rather than the increase in a step.
+/// Whether p.strainEnergy of a body is its total strain energy, rather than the increase in each step.
 inline bool storesStrain(const mpm::solid::Material& material) {
   const auto name = material.model->name();
   return !material.isDamageable() &&
          (name == mpm::solid::CompNeoHook::name || name == mpm::solid::CompMooneyRivlin::name);
 }
 
-/// The particles of a body at the end of a step; the mass is that before burning.
+/// Views of the particles of a body at the end of a step, with their masses before burning.
 template <int D>
 struct BurningParticles {
   ParticleView<const double> mass, temperature;
   ParticleView<const Vec<D>> velocity;
-  std::optional<ParticleView<const double>> strainEnergy;  ///< J
+  std::optional<ParticleView<const double>> strainEnergy;  ///< strain energy [J]
 
   static BurningParticles from(auto& take, bool keepsStrain) {
     return {.mass = take(requiresOld(p::mass)),
@@ -28,7 +28,8 @@ struct BurningParticles {
   }
 };
 
-/// The gas that receives the burned mass in a step: its state at the start, and before small cells are merged.
+/// Views of the gas that receives the burned mass in a step: of its state at the start, and of its state after the
+/// step, before small cells are merged.
 template <int D>
 struct BurntGas {
   GasInCells<D> before;
@@ -53,14 +54,15 @@ struct BurntGas {
   }
 };
 
-/// The mass, momentum and energy that burn in a cell in a step, per volume of the cell.
+/// The mass, momentum and energy of what burns in a cell in a step, per cell volume.
 template <int D>
 struct Burnt {
   double mass = 0;
   Vec<D> momentum = Vec<D>::Zero();
   double kinetic = 0, internal = 0;
 
-  /// With its properties as a part of the body, and the heat of reaction [J/kg].
+  /// Sums the burned fraction of the particles in `range`: `factor` times their content, plus the heat of reaction
+  /// [J/kg].
   static Burnt of(const BurningParticles<D>& particles, const data::ParticleRange& range, double factor,
                   double specificHeat, double heat) {
     Burnt sum;
@@ -76,8 +78,9 @@ struct Burnt {
   }
 };
 
-/// The volumes of several gases in a cell after burned mass has been added to one of them: the new gas takes the volume
-/// that it has at the pressure of the cell; if the cell keeps its gas, all volumes are scaled to fill the cell.
+/// Updates the volumes of several gases in a cell after burned mass has been added to one of them. The new gas occupies
+/// the volume that it has at the pressure of the cell; if the cell keeps its gas, all volumes are then scaled to fill
+/// the cell.
 template <int D>
 void makeRoomFor(const Level& level, const Settings& settings, const BurntGas<D>& gas, const Index<D>& cell,
                  double internal) {
@@ -109,8 +112,8 @@ void makeRoomFor(const Level& level, const Settings& settings, const BurntGas<D>
   for (const auto& share : gas.held.shares) share[cell] *= gas.newFree[cell] / volume;
 }
 
-/// Adds the burned mass, momentum and energy to the gas of the cell that contained them, with the space that becomes
-/// free (see measureMotion).
+/// Adds the burned mass, momentum and energy to the gas of the cell in which they were. The gas also gets the space
+/// that becomes free (see measureMotion).
 template <int D>
 void addBurntGas(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                  const std::vector<BurningParticles<D>>& bodies, const BurntGas<D>& gas) {
@@ -133,13 +136,13 @@ void addBurntGas(const Patch& patch, const std::vector<mpm::solid::Material>& ma
   });
 }
 
-/// Nothing has burned at the start.
+/// Sets the unburned fraction of particles to 1 at the start.
 inline void startUnburned(const Patch&, const mpm::solid::Material&, ParticleView<const double> mass,
                           ParticleView<double> unburned) {
   for (int p = 0; p < mass.owned(); ++p) unburned[p] = 1;
 }
 
-/// The mass that has burned, and the heat of its reaction.
+/// Computes the mass that has burned since the start, and the heat of its reaction.
 template <int D>
 void sumBurnt(const Patch& patch, const Settings& settings, CellView<const double> burnt, Sum& mass, Sum& heat) {
   const double volume = patch.level().cellVolume();

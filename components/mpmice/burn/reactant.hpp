@@ -7,10 +7,11 @@
 
 namespace tushar::mpmice {
 
-/// As in Uintah, bodies that fill at most this fraction of a cell do not ignite a surface.
+/// The volume fraction of a cell up to which a body in it does not ignite a surface, as in Uintah.
 inline constexpr double leastVisible = 0.2;
 
-/// The burning body and the other bodies, summed over the particles that start the step in a cell.
+/// Views of cell values of the burning body and of the other bodies, summed over the particles that start the step in
+/// the cell.
 template <class T>
 struct ReactantFields {
   CellView<T> mass, volume, temperature, others, hottest;
@@ -32,7 +33,7 @@ struct Reactant : ReactantFields<const double> {
   static Reactant from(auto& take, int ghost) {
     return {ReactantFields<const double>::from(take, [&](const auto& label) { return requiresNew(label, ghost); })};
   }
-  /// Its fraction of the volume of all bodies in two cells.
+  /// The fraction of the volume of all bodies in two cells that belongs to the burning body.
   template <int D>
   double shareIn(const Index<D>& a, const Index<D>& b) const {
     const double own = volume[a] + volume[b];
@@ -40,7 +41,7 @@ struct Reactant : ReactantFields<const double> {
   }
 };
 
-/// The particles of a body at the start of a step.
+/// Views of the particles of a body at the start of a step.
 struct ParticlesAtStart {
   ParticleView<const double> mass, temperature;
   ParticleView<const mpm::solid::Matrix3> deformation;
@@ -52,7 +53,7 @@ struct ParticlesAtStart {
   }
 };
 
-/// Sums masses, volumes and temperatures of bodies in cells.
+/// Computes masses, volumes and temperatures of bodies in each cell.
 template <int D>
 void measureReactant(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                      const std::vector<ParticlesAtStart>& bodies, const NewReactant& found) {

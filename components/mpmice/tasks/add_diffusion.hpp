@@ -9,16 +9,16 @@
 
 namespace tushar::mpmice {
 
-/// Viscosity and conduction through the open fractions of faces next to bodies. T and v count in the middle of a cell's
-/// gas; if a cell has none, they are those of its neighbour at the face.
+/// Viscosity and conduction through the open fractions of faces next to bodies. T and v apply at the middle of the gas
+/// of a cell; in place of a cell without gas, the neighbour at the face is used.
 template <int D>
 class DiffusionBeside {
  public:
   DiffusionBeside(const Level& level, const Settings& settings, const GasInCells<D>& cells, const euler::Rows<D>& w)
       : level_(level), cells_(cells), space_(level, settings, cells), w_(w) {}
 
-  /// Pa and W/m² through the lower face of a cell across an axis. `how(strain)` is the diffusion there, by the function
-  /// that finds sqrt(2 S : S) of the gas beside the face [1/s].
+  /// The diffusive fluxes [Pa and W/m²] through the lower face of a cell across an axis. `how(strain)` returns the
+  /// coefficients at the face, where `strain()` returns sqrt(2 S : S) of the gas beside the face [1/s].
   template <class How>
   euler::State<D> fluxThrough(const Index<D>& cell, int axis, How&& how) const {
     const Index<D> below = cell - Index<D>::unit(axis);
@@ -47,7 +47,7 @@ class DiffusionBeside {
   }
 
  private:
-  /// The cell itself or, beyond the grid, the nearest on it.
+  /// The cell itself or, if it is outside the grid, the nearest cell on the grid.
   Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(level_, cell); }
   bool isBeyond(const Index<D>& cell, int axis) const {
     return !level_.isPeriodic(axis) &&
@@ -61,7 +61,7 @@ class DiffusionBeside {
   double rise(const Index<D>& cell, const Index<D>& below, std::size_t number) const {
     return w_.number(cell, number) - w_.number(below, number);
   }
-  /// Slope of a number across another axis at a face.
+  /// The derivative along `axis`, which is not the axis of the face, of a component at the face.
   double slope(const Index<D>& cell, const Index<D>& below, int axis, std::size_t number) const {
     double sum = 0;
     for (const Index<D>& at : {cell, below})
@@ -77,7 +77,7 @@ class DiffusionBeside {
       return d == axis ? rise(cell, below, v) * perWidth : slope(cell, below, d, v);
     });
   }
-  /// Distance, in cells, between the gas of two cells along an axis.
+  /// Distance along an axis between the middles of the gas of two cells, in cells.
   double distance(const Index<D>& cell, const Index<D>& below, int axis) const {
     if (isBeyond(cell, axis) || isBeyond(below, axis)) {
       const bool isUpper = isBeyond(cell, axis);  // the mirror image is as far away from the side
@@ -85,8 +85,8 @@ class DiffusionBeside {
     }
     return std::max(0.5, 1 + middle(cell, axis) - middle(below, axis));
   }
-  /// The position, along an axis, of the centre of the gas of a cell relative to the centre of the cell, in cells: away
-  /// from its walls, and towards a small cell with which it is merged.
+  /// The position along an axis of the middle of a cell's gas, relative to the centre of the cell, in cells. It is
+  /// shifted away from the cell's walls, and towards a small cell with which the cell is merged.
   double middle(const Index<D>& cell, int axis) const {
     const OpenFaces faces = space_.faces(cell, axis);
     const double walls = faces.wall(0) + faces.wall(1);
@@ -105,7 +105,7 @@ class DiffusionBeside {
   const euler::Rows<D>& w_;
 };
 
-/// T and v of the gas in the cells of the box; in cells without gas, arbitrary values that are not used.
+/// Loads T and v of the gas in the cells of `w`. Cells without gas get arbitrary values, which are not used.
 template <int D>
 void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                       euler::Rows<D>& w) {
@@ -121,7 +121,7 @@ void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCell
   });
 }
 
-/// The diffusive fluxes through the rim of the level before small cells are merged, Pa and W/m².
+/// The places for the diffusive fluxes [Pa and W/m²] through the rim of the level, before small cells are merged.
 template <int D>
 struct RimsOfDiffusion : euler::DiffusionRims<D> {
   static RimsOfDiffusion from(auto& take) {
@@ -129,9 +129,9 @@ struct RimsOfDiffusion : euler::DiffusionRims<D> {
   }
 };
 
-/// Adds the changes due to viscosity and conduction within the gas in a step, from the state at its start, to the state
-/// before small cells are merged: through the open fractions of faces. Friction at walls is with their pressure. Where
-/// no body is near, it is that of `euler`, to the last bit.
+/// Adds the changes due to viscosity and conduction in a step to the state before small cells are merged, given the
+/// state at the start of the step. The fluxes pass through the open fractions of faces. Friction at walls is computed
+/// together with the pressure on walls. Away from bodies, the result is bitwise that of `euler`.
 template <int D>
 void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
                   CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {
@@ -161,7 +161,7 @@ void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells
   });
 }
 
-/// The diffusing gas of cells; cells without gas are at rest.
+/// A function that returns the diffusion properties of each cell; cells without gas are at rest.
 template <int D>
 auto diffusingGas(const Level& level, const Settings& settings, const GasInCells<D>& cells) {
   return [&level, &settings, cells](const Index<D>& cell) {
@@ -169,8 +169,8 @@ auto diffusingGas(const Level& level, const Settings& settings, const GasInCells
   };
 }
 
-/// addDiffusion for varying viscosity and conduction, or for several gases: the flux through a face uses the mean of
-/// the coefficients of both cells.
+/// Adds the changes due to viscosity and conduction in a step, like addDiffusion, for varying coefficients or several
+/// gases. The flux through a face uses the means of the coefficients of the cells on both sides.
 template <int D>
 void addVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
                          CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {
@@ -196,8 +196,8 @@ void addVaryingDiffusion(const Patch& patch, const Settings& settings, const Gas
   });
 }
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / (l h_d)²) of the gas, nu the greatest diffusivity, l the thickness
-/// of its layer in cells.
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / (l h_d)²) of the gas, where nu is the largest diffusivity,
+/// and l the thickness, in cells, of the layer of gas in the cell.
 template <int D>
 void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const euler::Gas& gas = settings.gas.gas;
@@ -220,8 +220,9 @@ void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCel
   if (greatest > 0) dt.add(settings.gas.cfl / greatest, "diffusion");
 }
 
-/// The same for varying viscosity and conduction, together with a fraction of the speed of sound: dt = cfl / max(sum_d
-/// (|v_d| + k c) / h_d + (nu_below + nu_above) / (l h_d)²).
+/// Computes dt = cfl / max(sum_d (|v_d| + k c) / h_d + (nu_below + nu_above) / (l h_d)²) for varying viscosity and
+/// conductivity. k = `soundSpeedKnob` is the fraction of the speed of sound that is included; nu and l are as in
+/// limitDiffusion.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                            double soundSpeedKnob, Minimum& dt) {

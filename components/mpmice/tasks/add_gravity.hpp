@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// Gravity [m/s²] accelerates the gas, except in closed holes of bodies.
+/// Accelerates the gas by gravity [m/s²], except in closed holes of bodies.
 template <int D>
 void addGravity(const Patch& patch, const Vec3& gravity, CellView<const double> free, CellView<const double> density,
                 double dt, CellView<Vec<D>> momentum, CellView<double> totalEnergy) {

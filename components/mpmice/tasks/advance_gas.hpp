@@ -4,10 +4,10 @@
 
 namespace tushar::mpmice {
 
-/// The state after a step, before small cells are merged.
+/// Views of the state after a step, before small cells are merged with others.
 template <int D>
 struct UnsharedGas {
-  euler::MixtureViews<D, double> held;  ///< of several gases the volumes, in place of the shares
+  euler::MixtureViews<D, double> held;  ///< for several gases, the volumes in place of the volume fractions
   euler::RimFluxes<D> rims = {};        ///< fluxes through the rim of the level
 
   static UnsharedGas from(auto& take, std::size_t gases, bool keepsMasses) {
@@ -28,8 +28,8 @@ struct UnsharedGas {
   }
 };
 
-/// rho, v, p of the gas in the cells of the box; in cells without gas, those of some gas at rest, whose fluxes vanish
-/// because faces are closed.
+/// Computes rho, v, p of the gas in the cells of `w`. Cells without gas get an arbitrary gas at rest; it has no fluxes,
+/// because the faces of these cells are closed.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D, euler::kGases<G>>& w) {
@@ -46,7 +46,7 @@ void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, co
   });
 }
 
-/// Treats cells with a body in or next to them as constant, as well as their images outside the grid.
+/// Makes each cell constant that has a body in it or next to it, as well as its images outside the grid.
 template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D, K>& work) {
@@ -67,7 +67,7 @@ void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& ce
   });
 }
 
-/// Reduces the fluxes through the lower faces of the cells of `faces` to the open fractions of these.
+/// Multiplies the fluxes through the lower faces of the cells of `faces` by the open fractions of these faces.
 template <int D, int K>
 void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<D>& near, const Box& faces, int axis,
                 euler::Rows<D, K>& flux) {
@@ -82,8 +82,8 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   });
 }
 
-/// Stores the mass that flows upwards, relative to the bodies, through the lower faces of a block's cells across an
-/// axis, divided by the cell volume.
+/// Stores the mass that flows upwards through the lower faces of a block's cells across an axis, relative to the
+/// bodies, per cell volume.
 template <int D, int K>
 void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
                   const euler::Rows<D, K>& flux, const CellView<Vec<D>>& flow) {
@@ -93,7 +93,7 @@ void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, co
   });
 }
 
-/// The fluxes through the open parts of a block's faces across an axis.
+/// Adds the fluxes through the open parts of a block's faces across an axis.
 template <int D, class Flux, class Shape, int Axis, class G>
 void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
                const Box& block, double ratio, const euler::MixtureViews<D, const double>& old,
@@ -109,7 +109,7 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 
-/// Adds the forces of walls near a block, and their power.
+/// Adds to the gas of a block the forces of walls, and to `power` the power of the gas on these walls.
 template <int D>
 void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
               const UnsharedGas<D>& fresh, const OfferedExchange<D>& offered, Sum& power) {
@@ -133,7 +133,7 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
   });
 }
 
-/// Whether the gas of a cell has a valid state; refuseFarGas checks several gases.
+/// Whether the gas of a cell has a possible state. For several gases, refuseFarGas checks it.
 template <int D, class G>
 bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, double>& fresh) {
   if constexpr (euler::kGases < G >> 1)
@@ -142,8 +142,9 @@ bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, doub
     return euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1);
 }
 
-/// A step of a block with bodies in or around it: a step of `euler` through open faces, and the effect of walls.
-/// Returns whether the gas away from bodies is possible; beside them small cells have still to share.
+/// Performs a step for a block with bodies in or around it: a step of `euler` through open faces, and the effect of
+/// walls. Returns whether the gas away from bodies is possible; near bodies, the state may become possible only when
+/// small cells are merged.
 template <int D, class Flux, class Shape, class G>
 bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
                      const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D, euler::kGases<G>>& work,
@@ -168,7 +169,7 @@ bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells
   return fine;
 }
 
-/// The step of a patch with the law of its gas. Returns whether the gas away from bodies is possible.
+/// Performs a step for a patch with the law of its gas. Returns whether the gas away from bodies is possible.
 template <int D, class Flux, class Shape, class G>
 bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D>& cells,
                  const WallExchange<D>& exchange, const NearBodies<D>& near, const UnsharedGas<D>& fresh,
@@ -192,7 +193,7 @@ bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D
   return fine;
 }
 
-/// Throws NumericalError if bodies are so close to coarser cells that these would have walls.
+/// Throws NumericalError if bodies are so close to cells of a coarser level that these would have walls.
 template <int D>
 void requireFinest(const Patch& patch, const NearBodies<D>& near) {
   const Level& level = patch.level();
@@ -205,9 +206,10 @@ void requireFinest(const Patch& patch, const NearBodies<D>& near) {
   });
 }
 
-/// One step of the gas. Away from bodies, it is bitwise a step of `euler`. At bodies, fluxes pass through the open
-/// fraction of faces, walls exert a pressure and do work with the mean of their velocities before and after the step,
-/// and gas follows moving walls. Adds the power of the gas on bodies, W. K is the number of gases that share cells.
+/// Performs one step of the gas. Away from bodies, it is bitwise a step of `euler`. At bodies, fluxes pass through the
+/// open fractions of faces. Walls exert a pressure, which does work at the mean of their velocities before and after
+/// the step, and gas follows moving walls. Adds the power of the gas on bodies [W] to `power`. K is the number of gases
+/// that share cells.
 template <int D, class Flux, class Shape, int K>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
                 const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
@@ -237,7 +239,7 @@ using AdvanceGas = void (*)(const Patch& patch, const std::vector<mpm::solid::Ma
                             const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
                             const OfferedExchange<D>& offered, Sum& power);
 
-/// advanceGas for several gases, two or three.
+/// The function that advances two or three gases, which is like advanceGas.
 template <int D>
 AdvanceGas<D> chooseAdvanceGases(const euler::Method& method, std::size_t gases);
 

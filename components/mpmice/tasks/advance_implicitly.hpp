@@ -7,7 +7,7 @@
 
 namespace tushar::mpmice {
 
-/// The gas before a step, and its change of pressure.
+/// Views of the gas before a step, and of its change of pressure.
 template <int D>
 struct GasInStep {
   GasInCells<D> cells;
@@ -21,8 +21,8 @@ struct GasInStep {
   }
 };
 
-/// The fluxes of an implicit step through the open fractions of the faces of a block, and its gravity. Returns the
-/// greatest part of a cell that flows through a face.
+/// Adds the fluxes of an implicit step through the open fractions of a block's faces across an axis, and gravity along
+/// it. Returns the largest fraction of a cell that flows through a face.
 template <int D, int Axis>
 double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level, const Box& block,
                        double dt, const GasInCells<D>& cells, ice::ImplicitStep<D>& step, const UnsharedGas<D>& fresh,
@@ -39,9 +39,9 @@ double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& nea
   return most;
 }
 
-/// One step of the gas with the pressure at its end. Away from bodies, it is a step of `ice`; at bodies, fluxes pass
-/// through the open fraction of faces, and walls exert pressure and move as in an explicit step. Mass, momentum and
-/// energy are kept whatever the pressure is.
+/// Performs one step of the gas, given the pressure at its end. Away from bodies, it is a step of `ice`. At bodies,
+/// fluxes pass through the open fractions of faces; walls exert pressure and move as in an explicit step. Mass,
+/// momentum and energy are conserved for any pressure.
 template <int D>
 void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                        double dt, const GasInStep<D>& before, const BodiesInStep<D>& bodies,
@@ -75,7 +75,8 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
   ice::refuseCrossing(most, dt);
 }
 
-/// dt = cfl / s as in `ice`, s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, by the pressure of the gas.
+/// Computes dt = cfl / s as in `ice`, with s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2. The acceleration a_d follows
+/// from the pressure of the gas itself.
 template <int D>
 void limitImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const Level& level = patch.level();

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d) of the gas.
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d) of the gas.
 /// Throws NumericalError where its density, or p + p_inf, is not positive.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
@@ -31,7 +31,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, const G
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// The same of several gases.
+/// Computes the stable time step of several gases, like computeStableTimeStep.
 template <int D>
 void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const Level& level = patch.level();

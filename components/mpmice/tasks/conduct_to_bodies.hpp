@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// Capacity and temperature of the bodies in a cell that exchange heat with the gas.
+/// Views of the heat capacity and the temperature of those bodies in a cell that exchange heat with the gas.
 struct BodyHeat {
   CellView<double> capacity, temperature;
 
@@ -20,7 +20,7 @@ struct KnownBodyHeat {
     return {.capacity = take(requiresNew(c::bodyCapacity, 1)), .temperature = take(requiresNew(c::bodyTemperature, 1))};
   }
 };
-/// Particles at the start of a step, by the cell in which they are.
+/// Views of the particles at the start of a step, ordered by the cell in which they are.
 struct HeatOfParticles {
   ParticleView<const double> mass, temperature;
 
@@ -29,8 +29,8 @@ struct HeatOfParticles {
   }
 };
 
-/// Whether a body exchanges heat with a gas: one of the last coefficients of its row, which has its pairs with the
-/// materials after it.
+/// Whether a body exchanges heat with a gas, that is, whether one of its coefficients with the gases is positive. They
+/// are the last ones in the body's row, which contains its pairs with all materials after it.
 inline bool warmsGas(const Settings& settings, std::size_t body, std::size_t bodies) {
   if (settings.heat.byMasses) return true;
   if (!settings.heat.act()) return false;
@@ -42,7 +42,7 @@ inline bool warmsGas(const Settings& settings, std::size_t body, std::size_t bod
                      [](double h) { return h > 0; });
 }
 
-/// Sums the heat of bodies in cells, J/(m³ K) and K.
+/// Computes the heat capacity [J/(m³ K)] and the temperature [K] of the bodies in each cell.
 template <int D>
 void measureBodyHeat(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                      const std::vector<HeatOfParticles>& bodies, const BodyHeat& found) {
@@ -62,8 +62,8 @@ void measureBodyHeat(const Patch& patch, const std::vector<mpm::solid::Material>
   });
 }
 
-/// Heat that the gas conducts to bodies through walls, k A dT / d, according to the state at the start of the step.
-/// Bodies at a face are those of the cells on both sides.
+/// Computes the heat that the gas conducts to bodies through walls, k A dT / d, given the state at the start of the
+/// step. The bodies at a face are those in the cells on both sides.
 template <int D>
 class WallHeat {
  public:
@@ -71,15 +71,15 @@ class WallHeat {
            double dt)
       : level_(level), settings_(settings), cells_(cells), space_(level, settings, cells), bodies_(bodies), dt_(dt) {}
 
-  /// heat that the gas of a cell gives in the step, J/m³ of the cell
+  /// Heat that the gas of a cell loses in the step, per cell volume [J/m³].
   double given(const Index<D>& cell) const {
     double sum = 0;
     for (int a = 0; a < D; ++a)
       for (int side = 0; side < 2; ++side) sum += through(cell, a, side);
     return sum;
   }
-  /// The heat that the bodies of a cell receive: their part, in proportion to heat capacity, of the heat through each
-  /// of its faces.
+  /// The heat that the bodies of a cell receive. The heat through each face of the cell is divided between the bodies
+  /// on both sides, in proportion to their heat capacities.
   double taken(const Index<D>& cell) const {
     double sum = 0;
     for (int a = 0; a < D; ++a)
@@ -100,7 +100,7 @@ class WallHeat {
   double capacityAt(const Index<D>& cell, const std::optional<Index<D>>& next) const {
     return bodies_.capacity[cell] + (next ? bodies_.capacity[*next] : 0);
   }
-  /// Heat from the gas of a cell through its wall at a face, limited so that both do not overshoot a common
+  /// Heat from the gas of a cell through its wall at a face, limited so that neither gas nor bodies pass their common
   /// temperature.
   double through(const Index<D>& cell, int axis, int side) const {
     if (space_.isEmpty(cell)) return 0;
@@ -127,7 +127,7 @@ class WallHeat {
   double dt_;
 };
 
-/// Removes from the gas the heat that it conducts to bodies, before small cells are merged.
+/// Subtracts from the gas the heat that it conducts to bodies; to be called before small cells are merged.
 template <int D>
 void conductFromGas(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                     const KnownBodyHeat& bodies, double dt, CellView<double> totalEnergy, CellView<double> heat) {
@@ -140,7 +140,7 @@ void conductFromGas(const Patch& patch, const Settings& settings, const GasInCel
   });
 }
 
-/// Adds the heat to the particles of the cells on both sides of the walls.
+/// Adds the heat conducted through walls to the particles of the cells on both sides.
 template <int D>
 void conductToBodies(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                      const GasInCells<D>& cells, const KnownBodyHeat& heat, double dt,

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// The state of the gas in cells that contain some; 0 in others.
+/// Calls `show(cell, hasGas)` for each cell of the patch.
 template <int D, class Show>
 void showGas(const Patch& patch, const GasInCells<D>& cells, Show&& show) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { show(cell, !cells.isEmpty(cell)); });
@@ -47,7 +47,7 @@ void computeGasDensity(const Patch& patch, const GasInCells<D>& cells, CellView<
   });
 }
 
-/// T, K.
+/// Computes T [K] of the gas; 0 in cells without gas.
 template <int D>
 void computeTemperature(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                         CellView<double> temperature) {
@@ -75,7 +75,7 @@ void computeSpecificVolume(const Patch& patch, const GasInCells<D>& cells, CellV
   });
 }
 
-/// Internal energy of the gas, J.
+/// Computes the internal energy of the gas [J].
 template <int D>
 void sumInternalEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& energy) {
   WideSum sum(energy);
@@ -87,9 +87,9 @@ void sumInternalEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& ener
   });
 }
 
-// Each of these sums goes into a total of the gas, and into one of gas and bodies.
+// Each of the following sums is added to a total of the gas, and to one of gas and bodies.
 
-/// Mass of the gas, kg.
+/// Computes the mass of the gas [kg].
 template <int D>
 void sumMass(const Patch& patch, CellView<const double> density, Sum& ofGas, Sum& ofAll) {
   Sum sum;
@@ -98,7 +98,7 @@ void sumMass(const Patch& patch, CellView<const double> density, Sum& ofGas, Sum
   ofAll.merge(sum);
 }
 
-/// Momentum of the gas, kg m/s.
+/// Computes the momentum of the gas [kg m/s].
 template <int D>
 void sumMomentum(const Patch& patch, CellView<const Vec<D>> momentum, VectorSum& ofGas, VectorSum& ofAll) {
   VectorSum sum;
@@ -107,7 +107,7 @@ void sumMomentum(const Patch& patch, CellView<const Vec<D>> momentum, VectorSum&
   ofAll.merge(sum);
 }
 
-/// Kinetic energy of the gas, J.
+/// Computes the kinetic energy of the gas [J].
 template <int D>
 void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& ofGas, Sum& ofAll) {
   Sum sum;
@@ -122,7 +122,7 @@ void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& ofGas
   ofAll.merge(sum);
 }
 
-/// The smallest open fraction of a cell that contains gas.
+/// Computes the smallest open fraction of the cells that contain gas.
 template <int D>
 void findLeastFreeVolume(const Patch& patch, const GasInCells<D>& cells, Minimum& least) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -130,8 +130,8 @@ void findLeastFreeVolume(const Patch& patch, const GasInCells<D>& cells, Minimum
   });
 }
 
-/// The least mass (for several gases, of each) and the least internal energy, minus that of p_inf, in any cell,
-/// including closed holes, which only keep their content.
+/// Computes the smallest mass (for several gases, the smallest of any of them) and the smallest internal energy, minus
+/// that of p_inf, in any cell. Closed holes, which only keep their content, are included.
 template <int D>
 void findLeastContent(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& mass,
                       Minimum& heat) {

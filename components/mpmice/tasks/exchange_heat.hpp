@@ -6,13 +6,13 @@
 
 namespace tushar::mpmice {
 
-/// The heat of the particles of a material.
+/// Views of the masses and temperatures of the particles of a material.
 struct WarmBodies {
   ParticleView<const double> mass;
   ParticleView<const mpm::solid::Matrix3> deformation;
   ParticleView<double> temperature;
 
-  /// `mass` reads the mass at the end of the step.
+  /// `mass` reads the masses at the end of the step.
   static WarmBodies from(auto& take, auto mass) {
     return {.mass = take(mass),
             .deformation = take(requiresNew(p::deformationMeasure)),
@@ -20,8 +20,8 @@ struct WarmBodies {
   }
 };
 
-/// The variables of the gas that the heat exchange reads and changes after a step: its energy and, for several gases,
-/// the volume fractions.
+/// Views of the variables of the gas that the heat exchange reads and changes after a step: the energy and, for several
+/// gases, the volume fractions.
 template <int D>
 struct HeatedGas {
   CellView<const double> free, density;
@@ -40,11 +40,11 @@ struct HeatedGas {
   }
 };
 
-/// Up to so many bodies and gases exchange heat without memory from the heap in each cell.
+/// Largest number of bodies and gases for which the heat exchange needs no heap memory in each cell.
 inline constexpr int kFewThings = 8;
 
-/// Heat exchange between bodies and gases, between bodies, and between gases, in the cells that they share, with
-/// Uintah's exchange coefficients; heat is conserved. `Most`: the largest number of both in all.
+/// Exchanges heat between all bodies and gases that share a cell, with Uintah's exchange coefficients; heat is
+/// conserved. `Most` is the largest total number of bodies and gases.
 template <int D, int Most>
 class HeatExchange {
  public:
@@ -52,7 +52,8 @@ class HeatExchange {
                const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
       : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {}
 
-  /// Exchanges heat in a cell and adds heat from outside. Returns what the gas gives to bodies, J/m³ of the cell.
+  /// Exchanges heat in a cell, and adds heat from outside. Returns the heat that the gas loses to bodies, per cell
+  /// volume [J/m³].
   double apply(const Index<D>& cell, double time, double dt) const {
     const std::size_t bodies = bodies_.size(), gases = std::max<std::size_t>(1, settings_.gases.size());
     const auto first = static_cast<Eigen::Index>(bodies);
@@ -123,7 +124,7 @@ class HeatExchange {
   const std::vector<WarmBodies>& bodies_;
 };
 
-/// Heat between bodies and gases. Particles count for the cell in which they started the step.
+/// Exchanges heat between bodies and gases. Particles belong to the cell in which they started the step.
 template <int D, int Most>
 void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                   double time, double dt, const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies,
@@ -140,7 +141,7 @@ void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& m
   });
 }
 
-/// Heat of several gases that exchange none with bodies.
+/// Exchanges heat between several gases that exchange no heat with bodies.
 template <int D>
 void heatGases(const Patch& patch, const Settings& settings, double time, double dt, const HeatedGas<D>& gas) {
   const std::vector<WarmBodies> none;

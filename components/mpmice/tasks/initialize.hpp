@@ -6,8 +6,8 @@
 
 namespace tushar::mpmice {
 
-/// Calls `visit(cell, distance squared)` for the cells around one, first those within 3, then those farther away, if
-/// necessary all, until `isFound()`.
+/// Calls `visit(cell, distance squared)` for the cells around a given one until `isFound()`: first for those within 3
+/// cells, then for those farther away, and if necessary for all.
 template <int D, class Visit, class IsFound>
 void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFound&& isFound) {
   int extent = 1;
@@ -22,8 +22,8 @@ void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFou
   }
 }
 
-/// The gas of a cell with some free volume: the gas at its centre or, since scenes cut out the shapes of bodies, the
-/// gas at the nearest cell centre that has any. Throws InputError if there is none.
+/// The initial gas of a cell with some free volume: the gas at its centre or, if there is none, at the nearest cell
+/// centre that has gas, since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas.
 template <int D>
 euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
   const auto at = [&](const Index<D>& of) {
@@ -44,11 +44,11 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
   return *nearest;
 }
 
-/// Fills the free part of cells with the gas of the scene.
+/// Fills the free part of cells with the initial gas of the scene.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<const double> free, CellView<double> density,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
-  // what a body burns to may be nowhere yet
+  // A gas that only burning creates need not be anywhere at the start.
   if (patch.id() == 0 && !settings.burning) euler::checkObjects<D>(patch.level(), settings.gas);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     density[cell] = totalEnergy[cell] = 0;
@@ -61,8 +61,9 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
   });
 }
 
-/// Several gases at the centre of a cell or, since scenes cut out the shapes of bodies, at the nearest cell centre
-/// where there are any. Throws InputError where there are none, or they do not fill the cell.
+/// The initial gases of a cell: those at its centre or, if there are none, at the nearest cell centre that has gas,
+/// since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, or if the gases do not fill
+/// the cell.
 template <int D>
 ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, const Index<D>& cell) {
   const auto pointOf = [&](const Index<D>& of) { return level.expandPoint<D>(level.cellCentre<D>(of)); };
@@ -82,7 +83,7 @@ ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settin
   return start;
 }
 
-/// The state of several gases at the start.
+/// Sets the initial state of several gases.
 template <int D>
 void initializeGases(const Patch& patch, const Settings& settings, CellView<const double> free,
                      const NewContent<D>& fresh) {

@@ -7,11 +7,11 @@
 
 namespace tushar::mpmice {
 
-/// Number of layers of cells around a patch that contain particles whose boxes may extend into it, before or after a
-/// step.
+/// Number of layers of cells around a patch whose particles have boxes that may extend into the patch, before or after
+/// a step.
 inline constexpr int boxReach = 2;
 
-/// The box of each particle, from its size at the start, in cells, and F; and its unburned fraction.
+/// Computes the edges of the box of each particle, from its initial size in cells, F, and its unburned fraction.
 template <int D>
 void findBoxes(const Patch& patch, const mpm::solid::Material&, ParticleView<const Vec<D>> size,
                ParticleView<const mpm::solid::Matrix3> deformation,
@@ -22,19 +22,19 @@ void findBoxes(const Patch& patch, const mpm::solid::Material&, ParticleView<con
   }
 }
 
-/// Positions and sizes of the particles of a material on a patch and around it.
+/// Views of the positions and box edges of the particles of a material, on a patch and around it.
 template <int D>
 struct Boxes {
   ParticleView<const Vec<D>> x, edges;
 
-  /// `reads` makes accesses to their values in a step, or at its start.
+  /// `reads` makes the accesses to the values, which are those at the start of a step, or those computed in it.
   static Boxes from(auto& take, auto reads) {
     return {.x = take(reads(p::x<D>, boxReach)), .edges = take(reads(p::boxEdges<D>, boxReach))};
   }
   ParticleBox<D> of(const mpm::CellFrame<D>& frame, int p) const { return {frame.coordinates(x[p]), edges[p]}; }
 };
 
-/// Before and after a step.
+/// Views of the boxes of particles before and after a step.
 template <int D>
 struct MovedBoxes {
   Boxes<D> before, after;
@@ -45,7 +45,8 @@ struct MovedBoxes {
   }
 };
 
-/// A number for each cell of a box along each axis; boxes of particles extend over a few cells, even while they move.
+/// A number for each cell of a box along each axis. The boxes of particles extend over only a few cells, even while
+/// they move.
 template <int D, class Make>
 auto alongAxes(const Box& reach, Make&& make) {
   std::array<std::array<double, 2 * (boxReach + 2)>, D> values;
@@ -54,13 +55,13 @@ auto alongAxes(const Box& reach, Make&& make) {
   return values;
 }
 
-/// The volume and the faces that bodies leave free on a patch.
+/// The volume fractions and faces that bodies leave free on a patch, from which the boxes of particles are subtracted.
 template <int D>
 struct FreeShares {
   CellView<double> volume;
   CellView<Vec<D>> coverage;
 
-  /// `volume` receives the free volume.
+  /// `volume` is the label of the free volume.
   static FreeShares from(auto& take, const CellLabel<double>* volume) {
     return {.volume = take(computes(*volume)), .coverage = take(computes(c::coverage<D>))};
   }
@@ -68,7 +69,7 @@ struct FreeShares {
     volume.fill(1);
     coverage.fill(Vec<D>::Zero());
   }
-  /// Subtracts the contribution of a box whose coordinates start at `origin`.
+  /// Subtracts the contribution of a particle's box, whose coordinates are relative to the cell `origin`.
   void take(const Index<D>& origin, const ParticleBox<D>& box) const {
     if (!(box.edges.minCoeff() > 0)) return;  // it has burned
     const Box reach = box.reach();
@@ -88,13 +89,14 @@ struct FreeShares {
       }
     });
   }
-  /// Sets the free volume to 0 where bodies overlap and it would be negative.
+  /// Sets the free volume to 0 where it is negative because bodies overlap.
   void settle() const {
     forEach<D>(volume.box(), [&](const Index<D>& cell) { volume[cell] = std::max(0.0, volume[cell]); });
   }
 };
 
-/// Calls `visit(origin, frame, particle)` for the particles around a patch, cell by cell and by id, with the cell.
+/// Calls `visit(origin, frame, particle)` for the particles around a patch, ordered by cell and id; `origin` is the
+/// cell.
 template <int D, class Visit>
 void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Visit&& visit) {
   x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
@@ -103,7 +105,7 @@ void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Vi
   });
 }
 
-/// The fractions of cells and faces that bodies leave free.
+/// Computes the fractions of cells and faces that bodies leave free.
 template <int D>
 void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material>&,
                       const std::vector<Boxes<D>>& materials, const FreeShares<D>& free) {
@@ -115,8 +117,9 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
   free.settle();
 }
 
-/// Adds the volume, in cells, that a box moving from `before` to `after` carries up through the lower faces of the
-/// surrounding cells: the mean of two sequences, axis by axis in ascending and in descending order.
+/// Adds the volume, in cells, that a box sweeps upwards through the lower faces of the surrounding cells while it moves
+/// from `before` to `after`. It is the mean of two sequences of moves along one axis each: with the axes in ascending
+/// and in descending order.
 template <int D>
 void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after,
               CellView<Vec<D>> swept) {
@@ -146,16 +149,16 @@ void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const Partic
   });
 }
 
-/// The position of a particle, limited to the distance from its starting cell that patches see; time steps keep it
-/// closer.
+/// The position of a particle, limited to the distance from its starting cell that patches can see. The limits of the
+/// time step keep it closer.
 template <int D>
 Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {
   const Vec<D> least = edges.array() - boxReach, most = boxReach + 1 - edges.array();
   return coordinates.cwiseMax(least).cwiseMin(most);
 }
 
-/// Measures the bodies at the end of a step, before relocation, and the volume of bodies that passed through faces:
-/// each box moves with its shape at the start of the step.
+/// Measures the bodies at the end of a step, before relocation, and the volume of bodies that passed through faces. For
+/// the latter, each box keeps the shape that it had at the start of the step.
 template <int D>
 void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
                    const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, CellView<Vec<D>> swept) {

@@ -10,8 +10,8 @@
 
 namespace tushar::mpmice {
 
-/// Momentum, work and heat that the gas of each cell gives to walls in a step, and the flow through open faces, if
-/// needed.
+/// Views of the momentum and work that the gas of each cell transfers to walls in a step, and of the flow through open
+/// faces; each is empty unless something needs it.
 template <int D>
 struct OfferedExchange {
   std::optional<CellView<Vec<D>>> impulse;
@@ -30,13 +30,13 @@ struct OfferedExchange {
   }
 };
 
-/// now = before + the part of the step.
+/// Computes a sum since the start: `now` = `before` + the contribution of the step.
 template <int D, class T>
 void addToSum(const Patch& patch, CellView<const T> part, CellView<const T> before, CellView<T> now) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { now[cell] = before[cell] + part[cell]; });
 }
 
-/// The same for heat, from exchange coefficients and, if walls conduct, through walls.
+/// Computes the sum of the heat since the start: from exchange coefficients and, if walls conduct, through walls.
 template <int D>
 void addHeatToSum(const Patch& patch, CellView<const double> heat, const std::optional<CellView<const double>>& walls,
                   CellView<const double> before, CellView<double> now) {
@@ -44,7 +44,7 @@ void addHeatToSum(const Patch& patch, CellView<const double> heat, const std::op
              [&](const Index<D>& cell) { now[cell] = before[cell] + heat[cell] + (walls ? (*walls)[cell] : 0); });
 }
 
-/// No exchange at the start.
+/// Sets the initial sum to 0.
 template <int D, class T>
 void startSum(const Patch&, CellView<T> sum) {
   if constexpr (std::is_same_v<T, double>)
@@ -53,7 +53,7 @@ void startSum(const Patch&, CellView<T> sum) {
     sum.fill(T::Zero());
 }
 
-/// The sum over cells of an amount per volume.
+/// Computes the total on the patch of an amount per volume.
 template <int D>
 void sumOverVolume(const Patch& patch, CellView<const double> amount, Sum& sum) {
   const double volume = patch.level().cellVolume();
@@ -68,14 +68,15 @@ void sumVectorOverVolume(const Patch& patch, CellView<const Vec<D>> amount, Vect
   });
 }
 
-/// The strips of a cell along each axis that contain bodies, as bits: 64 in a plane, 8 x 8 in space, one on a line.
+/// The strips of a cell along each axis that contain bodies, as bits. A cell has 1 strip in one dimension, 64 in two,
+/// and 8 x 8 in three.
 template <int D>
 class BlockedStrips {
  public:
   static constexpr int perAxis = D == 1 ? 1 : D == 2 ? 64 : 8;
   static constexpr int count = D == 1 ? 1 : 64;
 
-  /// Adds a box with coordinates from the lower corner of the cell.
+  /// Adds a box whose coordinates are measured from the lower corner of the cell.
   void add(const ParticleBox<D>& box, const Index<D>& k) {
     for (int d = 0; d < D; ++d)
       if (!(box.lengthIn(d, k[d]) > 0)) return;
@@ -87,11 +88,11 @@ class BlockedStrips {
       strips_[axis] |= bits;
     }
   }
-  /// The fraction of the cross-section of a cell that no body blocks.
+  /// The fraction of a cell's cross-section normal to an axis that no body blocks.
   double open(int axis) const { return 1 - std::popcount(strips_[axis]) * (1.0 / count); }
 
  private:
-  /// The strips across an axis whose centres are in the box.
+  /// The strips, counted along an axis, whose centres are in the box.
   static std::uint64_t along(const ParticleBox<D>& box, int axis, int k) {
     std::uint64_t bits = 0;
     for (int i = 0; i < perAxis; ++i) {
@@ -100,7 +101,7 @@ class BlockedStrips {
     }
     return bits;
   }
-  /// The pattern `bits` of `width` bits, repeated at each position of `places`.
+  /// The pattern `bits`, which has `width` bits, repeated at each position that is set in `places`.
   static std::uint64_t spread(std::uint64_t bits, int width, std::uint64_t places) {
     std::uint64_t all = 0;
     for (int i = 0; i < perAxis; ++i)
@@ -111,7 +112,7 @@ class BlockedStrips {
   std::array<std::uint64_t, D> strips_{};
 };
 
-/// The strips of the cells of a patch that bodies block at the start of a step.
+/// Finds the strips of the cells of a patch that bodies block at the start of a step.
 template <int D>
 std::vector<BlockedStrips<D>> blockedStrips(const Patch& patch, const std::vector<Boxes<D>>& materials) {
   const Box& cells = patch.cells();
@@ -127,15 +128,15 @@ std::vector<BlockedStrips<D>> blockedStrips(const Patch& patch, const std::vecto
   return strips;
 }
 
-/// The mass that leaks through bodies along an axis in a step, per cell volume: the part of the flow in through one
-/// face and out through the other that has no straight path past the bodies in the cell.
+/// The mass that leaks through bodies along an axis in a step, per cell volume. It is the part of the gas flowing in
+/// through one face and out through the other that has no straight path past the bodies in the cell.
 inline double leakAlong(double in, double out, double openIn, double openOut, double straight) {
   if (!(in * out > 0)) return 0;
   const double through = std::min(std::abs(in), std::abs(out)), width = std::min(openIn, openOut);
   return width > straight ? through * (1 - straight / width) : 0;
 }
 
-/// Adds the leak of a step to the total leak since the start.
+/// Adds the leak of a step to the leak since the start in each cell.
 template <int D>
 void measureLeak(const Patch& patch, const std::vector<mpm::solid::Material>&, const std::vector<Boxes<D>>& materials,
                  const Settings& settings, const GasInCells<D>& cells, CellView<const Vec<D>> flow,

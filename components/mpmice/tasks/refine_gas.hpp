@@ -5,8 +5,8 @@
 
 namespace tushar::mpmice {
 
-/// Cells within this distance of a body are on the finest level, so that no coarser cell has a wall: a step sees bodies
-/// two cells away, and faces one cell farther.
+/// Distance from bodies, in cells, within which all cells are on the finest level, so that no coarser cell has a wall.
+/// A step sees bodies two cells away, and faces one cell farther.
 inline constexpr int markedLayers = 3;
 
 /// Marks cells near bodies for refinement.
@@ -19,7 +19,7 @@ void markBodies(const Patch& patch, CellView<const double> free, Marks marks) {
   });
 }
 
-/// The variables of several gases that a regridding changes.
+/// Views of the variables of several gases that regridding changes.
 struct ChangedGases {
   std::vector<euler::ChangedGas> of;
 
@@ -31,7 +31,7 @@ struct ChangedGases {
   }
 };
 
-/// Replaces invalid interpolated values of several gases in new cells.
+/// Replaces interpolated values of several gases in new cells where they are impossible.
 template <int D>
 void mendNewGases(const Patch& patch, const std::vector<euler::Settings>& gases, const std::vector<Box>& newCells,
                   const euler::ChangedState<D>& state, const ChangedGases& held) {

@@ -5,14 +5,14 @@
 
 namespace tushar::mpmice {
 
-/// Layers of cells around a patch that determine with which neighbour one of its own cells is merged, and what they
-/// exchange.
+/// Number of layers of cells around a patch that determine with which neighbours the cells of the patch are merged, and
+/// what they exchange.
 inline constexpr int shareReach = 3;
 
-/// The state after a step and the free volume, before small cells are merged.
+/// Views of the state after a step and the free volume, before small cells are merged.
 template <int D>
 struct Unshared {
-  euler::MixtureViews<D, const double> held;  ///< of several gases the volumes, in place of the shares
+  euler::MixtureViews<D, const double> held;  ///< for several gases, the volumes in place of the volume fractions
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
 
@@ -29,9 +29,9 @@ struct Unshared {
   }
 };
 
-/// The merging of cells: a cell with little free volume gives its content to the neighbour with the widest opening to
-/// it, possibly across a corner, and gets back a part in proportion to its volume. So small cells limit no time step,
-/// and cells may appear and vanish.
+/// The rule by which cells are merged. A cell with little free volume gives its content to the neighbour with the
+/// widest opening to it, possibly across a corner, and gets back a part in proportion to its volume. So small cells do
+/// not limit the time step, and cells may appear and vanish.
 template <int D>
 class SmallCells {
  public:
@@ -39,21 +39,22 @@ class SmallCells {
       : level_(level), thin_walls_(thinWalls), state_(state) {}
 
   /// The neighbour that receives the gas of a small cell: one with enough free volume, otherwise one that has more free
-  /// volume and does not give away its own gas. If there is none, the cell itself. Ties go to the lower one.
+  /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself. Of two equal
+  /// ones, it is the lower one.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
   }
-  /// Whether a cell may receive gas from others, because it does not give away its own.
+  /// Whether a cell may receive gas from others, because it keeps its own gas.
   bool isTarget(const Index<D>& cell) const { return choiceOf(cell) == cell; }
-  /// Whether a small cell gives its gas to a neighbour that is a target.
+  /// Whether a small cell gives its gas to a given neighbour that may receive it.
   bool gives(const Index<D>& cell, const Index<D>& to) const { return isSmall(cell) && choiceOf(cell) == to; }
-  /// Whether a cell has little free volume, but is not empty.
+  /// Whether a cell has little free volume, but some.
   bool isSmall(const Index<D>& cell) const {
     return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
   }
 
-  /// Calls `visit(neighbour)` for the cells around one, on the grid.
+  /// Calls `visit(neighbour)` for the surrounding cells that are on the grid.
   template <class Visit>
   void forEachAround(const Index<D>& cell, Visit&& visit) const {
     forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) {
@@ -90,7 +91,8 @@ class SmallCells {
     });
     return best;
   }
-  /// The score of a neighbour with more free volume; -1 for others. Neighbours that are not small come first.
+  /// The score of a neighbour with more free volume; -1 for others. Neighbours that are not small have the highest
+  /// scores.
   double scoreOf(const Index<D>& cell, const Index<D>& at) const {
     const double room = state_.free[at], own = state_.free[cell];
     if (!(room > own) || room < leastFreeVolume) return -1;
@@ -113,7 +115,7 @@ class SmallCells {
   const Unshared<D>& state_;
 };
 
-/// The content of cells after a step, or at the start.
+/// Views of the new content of cells: after a step, or at the start of the run.
 template <int D>
 struct NewContent {
   euler::MixtureViews<D, double> held;
@@ -127,7 +129,7 @@ struct NewContent {
              ofEach(c::shareOfGas)}};
   }
 };
-/// The state after a step.
+/// Views of the state after a step.
 template <int D>
 struct NewGas {
   euler::MixtureViews<D, double> held;
@@ -139,12 +141,12 @@ struct NewGas {
   }
 };
 
-/// The sum of the contents of cells, and of their free volumes.
+/// The sum of the contents of several cells, and of their free volumes.
 template <int D>
 struct Pool {
   double volume = 0, mass = 0, energy = 0;
   Vec<D> momentum = Vec<D>::Zero();
-  std::array<double, euler::kMostGases> masses{}, volumes{};  ///< of each of several gases
+  std::array<double, euler::kMostGases> masses{}, volumes{};  ///< mass and volume of each of several gases
 
   void add(const Unshared<D>& state, const Index<D>& cell) {
     volume += state.free[cell];
@@ -156,7 +158,7 @@ struct Pool {
       volumes[k] += state.held.shares[k][cell];
     }
   }
-  /// The volume fractions of several gases; in cells without gas, that of the first gas is 1.
+  /// Sets the volume fractions of several gases; in cells without gas, that of the first gas is 1.
   void setShares(const Index<D>& cell, const euler::MixtureViews<D, double>& fresh) const {
     double sum = 0;
     for (const double of : volumes) sum += std::max(0.0, of);
@@ -165,7 +167,7 @@ struct Pool {
   }
 };
 
-/// Gives a cell its part of the content that it shares with others, through the cell `centre`.
+/// Gives a cell its share of the content of the cells that are merged with the cell `centre`.
 template <int D>
 void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, const Index<D>& centre,
              const euler::MixtureViews<D, double>& fresh) {
@@ -180,7 +182,7 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
   for (std::size_t k = 0; k < fresh.masses.size(); ++k) fresh.masses[k][cell] = pool.masses[k] * part;
 }
 
-/// Checks the contents of a cell after a step. Throws NumericalError where it cannot be, so that the step is repeated
+/// Checks the content of a cell after a step. Throws NumericalError if it is impossible, so that the step is repeated
 /// with a smaller time step.
 template <int D>
 void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, const NewGas<D>& fresh) {
@@ -193,10 +195,11 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
   refuseGas<D>(level, gas, cell, free, density, last);
 }
 
-/// A mass per cell volume that is treated as 0, kg/m³; otherwise the halving of the content of a hole would never end.
+/// The mass per cell volume below which a mass counts as 0 [kg/m³]. Without it, the content of a hole could be halved
+/// without end.
 inline constexpr double nothingLeft = 1e-100;
 
-/// Empties a cell that has almost nothing left.
+/// Empties a cell in which almost nothing is left.
 template <int D>
 void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, double>& held) {
   if (!(std::abs(held.density[cell]) < nothingLeft)) return;
@@ -205,7 +208,7 @@ void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, doubl
   for (const auto& mass : held.masses) mass[cell] = 0;
 }
 
-/// The state after a step: small cells are merged with neighbours. Counts them.
+/// Computes the state after a step by merging small cells with neighbours, and counts the merged cells.
 template <int D>
 void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
                      Sum& merged) {
@@ -225,7 +228,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     std::copy_n(euler::rowOf(state.held.totalEnergy, first, count), count,
                 euler::rowOf(fresh.held.totalEnergy, first, count));
   });
-  // Between levels, volumes are corrected by the flux of volume.
+  // At the rim of a level, the flux of volume has been corrected.
   if (level.domain().refinement.levels > 1 && !fresh.held.shares.empty())
     euler::closeShares<D>(patch, settings.gases, fresh.held.shares);
   const NearBodies<D> near(patch.cells(), shareReach, state.free, state.held.density);

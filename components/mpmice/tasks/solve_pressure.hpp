@@ -5,7 +5,8 @@
 
 namespace tushar::mpmice {
 
-/// The gas itself, per volume of the gas, in all cells; in cells without gas, arbitrary values that are not used.
+/// Views of the state of the gas itself, per volume of the gas. Cells without gas have arbitrary values, which are not
+/// used.
 template <int D>
 struct GasAlone {
   euler::StateViews<D, const double> state;
@@ -25,8 +26,8 @@ struct NewGasAlone {
   }
 };
 
-/// Normal velocities of the walls at the lower and upper faces of cells, m/s, and the acceleration of a wall per unit
-/// pressure of the gas in the cell, m/(s² Pa).
+/// Views of the normal velocities of the walls at the lower and upper faces of cells [m/s], and of the acceleration of
+/// these walls per pressure of the gas in the cell [m/(s² Pa)].
 template <int D>
 struct WallSpeeds {
   CellView<const Vec<D>> below, above, yieldBelow, yieldAbove;
@@ -56,10 +57,10 @@ struct NewWallSpeeds {
   }
 };
 
-/// The pressure that cells without gas have in the equations, Pa.
+/// The pressure used in the equations for cells without gas [Pa].
 inline constexpr double pressureOfNothing = 1;
 
-/// The state of the gas itself.
+/// Computes the state of the gas itself, per volume of the gas; sets arbitrary values in cells without gas.
 template <int D>
 void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                   const NewGasAlone<D>& alone) {
@@ -75,7 +76,7 @@ void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells
   });
 }
 
-/// The pressure of the gas, which is the initial guess for that at the end of the first step, Pa.
+/// Computes the pressure of the gas [Pa], which is the initial guess of the first solve.
 template <int D>
 void guessPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                    CellView<double> pressure) {
@@ -85,8 +86,8 @@ void guessPressure(const Patch& patch, const Settings& settings, const GasInCell
   });
 }
 
-/// The speed of walls at the start of the step, and their acceleration by pressure, with the mass that belongs to the
-/// face.
+/// Computes the speed of walls at the start of the step, and their acceleration per pressure; the accelerated mass is
+/// that which belongs to the face.
 template <int D>
 void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                     const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
@@ -120,7 +121,7 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
   });
 }
 
-/// Velocities at the faces of cells, piecewise constant next to bodies.
+/// Returns whether a cell is piecewise constant, because a body is in it or next to it, as a function.
 template <int D>
 ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   return [&level, cells](const Index<D>& cell) {
@@ -131,14 +132,15 @@ ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   };
 }
 
-/// The equation for the change of pressure of a cell's gas: that of `ice`, through open fractions g of faces, with wall
-/// fractions w that move at v_w:
+/// The equation for the change of pressure of a cell's gas. It is that of `ice`, through the open fractions g of faces,
+/// and with wall fractions w that move at v_w:
 ///
 ///   (phi + dt² sum w gamma P y / h) d - dt sum g gamma P_f loss_f (d_n - d) / h
 ///       = -dt sum +- (g gamma P_f u_f + w gamma P v_w) / h + (gamma - 1) dt / 2 sum +- g v (p_n - p) / h.
 ///
-/// y is by how much a wall yields to the pressure of this cell alone, so that light bodies do not swing against a stiff
-/// gas. Symmetric; positive where there is gas. A cell without any keeps its number.
+/// y is the acceleration of a wall per pressure of this cell alone; its term keeps light bodies from oscillating
+/// against a stiff gas. The matrix is symmetric, and positive in cells with gas. In a cell without gas, the equation is
+/// d = 0.
 template <int D>
 numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, const FreeSpace<D>& space,
                                                  const WallSpeeds<D>& walls, double free, const Index<D>& cell,
@@ -198,8 +200,8 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
       });
 }
 
-/// Pressure of the gas on walls: the pressure at the end of the step plus, for approaching walls, the viscosity of
-/// von Neumann and Richtmyer.
+/// Computes the pressure of the gas on walls. It is the pressure at the end of the step; for approaching walls, the
+/// viscosity of von Neumann and Richtmyer is added.
 template <int D>
 void takeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                       const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,

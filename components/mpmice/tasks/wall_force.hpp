@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// The pressure of a cell's gas on the walls at its lower and upper faces, Pa.
+/// Views of the pressure of a cell's gas on the walls at its lower and upper faces [Pa].
 template <int D>
 struct WallPressures {
   CellView<Vec<D>> below, above;
@@ -15,8 +15,9 @@ struct WallPressures {
   }
 };
 
-/// The pressure on one wall of a cell. The gas meets the body along its surface's normal, so that it slips along an
-/// oblique wall; between two walls, where no normal is, it meets each along the axis.
+/// The walls of a cell, and the pressure on each of them. The gas meets the body along the normal of the body's
+/// surface, so that it slips along an oblique wall. Between two walls that face each other, there is no normal, and it
+/// meets each along the axis.
 template <int D>
 class CellWalls {
  public:
@@ -26,14 +27,15 @@ class CellWalls {
     slip_ = facingOneWay<D>(level, faces_);
   }
   bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
-  /// Speed at which the gas approaches a wall, m/s.
+  /// Speed at which the gas approaches a wall [m/s].
   double closing(const Vec<D>& wallVelocity, int axis, int side) const {
     Vec<D> relative;
     for (int d = 0; d < D; ++d) relative[d] = w_[euler::kVelocity(d)] - wallVelocity[d];
     const double outward = side == 0 ? -relative[axis] : relative[axis];
     return slip_ * relative.dot(normal_) + (1 - slip_) * outward;
   }
-  /// `blowing` is the speed of new gas away from the wall, which the gas need not follow.
+  /// The pressure on a wall [Pa]. `blowing` is the speed of new gas that leaves the wall; it adds to the speed at which
+  /// the gas approaches.
   double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side, double blowing) const {
     return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing(wallVelocity, axis, side) + blowing);
   }
@@ -45,7 +47,7 @@ class CellWalls {
   double slip_ = 0;
 };
 
-/// New gas that leaves burning walls; none elsewhere.
+/// Views of the new gas that leaves burning walls; its speed and recoil are 0 at other walls.
 template <int D>
 struct Blowing {
   std::optional<CellView<const Vec<D>>> speeds, recoils;
@@ -54,9 +56,9 @@ struct Blowing {
     return {.speeds = take(when(burns, requiresNew(c::blowing<D>, 1))),
             .recoils = take(when(burns, requiresNew(c::recoil<D>, 1)))};
   }
-  /// Its speed, m/s, away from the wall of a cell at its lower (0) or upper (1) face.
+  /// Speed [m/s] of the new gas away from the wall at the lower (0) or upper (1) face of a cell.
   double speed(const Index<D>& cell, int axis, int side) const { return at(speeds, cell, axis, side); }
-  /// The pressure that it exerts on this wall, Pa.
+  /// The pressure that the new gas exerts on the wall at the lower (0) or upper (1) face of a cell [Pa].
   double recoil(const Index<D>& cell, int axis, int side) const { return at(recoils, cell, axis, side); }
 
  private:
@@ -68,7 +70,7 @@ struct Blowing {
   }
 };
 
-/// Fills in the pressure on all walls: `pressureOn(cell, walls of the cell, velocity of the wall, axis, side)`.
+/// Computes the pressure on all walls: `pressureOn(cell, walls of the cell, velocity of the wall, axis, side)`.
 template <int D, class PressureOn>
 void fillWallPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                       const typename BodiesAtNodes<D>::Records& records, const WallPressures<D>& walls,
@@ -93,7 +95,7 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   });
 }
 
-/// Pressure of the gas on walls, from the velocities of gas and bodies at the start of the step.
+/// Computes the pressure of the gas on walls, from the velocities of gas and bodies at the start of the step.
 template <int D>
 void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                          const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
@@ -106,7 +108,7 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
                       });
 }
 
-/// The pressures computed by computeWallPressure and, if the gas is viscous, the friction.
+/// Views of the pressures of computeWallPressure and, if the gas is viscous, of the friction.
 template <int D>
 struct KnownWalls {
   CellView<const Vec<D>> below, above;
@@ -119,7 +121,7 @@ struct KnownWalls {
   }
 };
 
-/// Force of the gas along an axis on the walls at the lower face of a cell, N; from its gas and from that of the
+/// Force along an axis on the walls at the lower face of a cell [N], exerted by the gas of the cell and by that of the
 /// cell below, if there is one.
 template <int D>
 double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D>& walls, double reference,
@@ -136,7 +138,8 @@ double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D
   return force * level.cellVolume() * level.inverseSpacing(axis);
 }
 
-/// Friction of the gas along the walls at the lower face of a cell, N; from its gas and that of the cell below.
+/// Friction along the walls at the lower face of a cell [N], exerted by the gas of the cell and by that of the cell
+/// below.
 template <int D>
 Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<D>& space, const KnownWalls<D>& walls,
                   const GasInCells<D>& cells, const BodiesAtNodes<D>& bodies, const Index<D>& face, int axis) {
@@ -152,7 +155,8 @@ Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<
   return level.cellVolume() * force;
 }
 
-/// Whether the lower face of a cell, normal to an axis, belongs to the grid; faces on the upper side of the grid do.
+/// Whether the lower face of a cell across an axis is a face of the grid. The cell may be just beyond the upper side,
+/// whose faces belong to the grid.
 template <int D>
 bool isFace(const Level& level, const Index<D>& cell, int axis) {
   for (int d = 0; d < D; ++d) {
@@ -169,8 +173,8 @@ bool ownsFace(const Patch& patch, const Index<D>& cell, int axis) {
   return patch.cells().contains(isOnSide ? cell - Index<D>::unit(axis) : cell);
 }
 
-/// Distributes the force of the gas at each face over the nodes and materials there, in proportion to their masses, N.
-/// Bodies that the gas cannot move get none.
+/// Distributes the force of the gas at each face [N] over the nodes of the face and their materials, in proportion to
+/// the masses there. Bodies that the gas cannot move receive no force.
 template <int D>
 void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                   const GasInCells<D>& cells, const KnownWalls<D>& walls,

@@ -13,10 +13,10 @@ class Nothing : public GeometryPiece {
   Box3 bounds() const override { return {}; }
 };
 
-/// The points inside any of its pieces.
+/// The points inside at least one of its pieces.
 class Union : public GeometryPiece {
  public:
-  /// Takes at least one piece.
+  /// Constructs the union of at least one piece.
   explicit Union(std::vector<PiecePtr> pieces) : pieces_(std::move(pieces)) {}
   bool contains(const Vec3& point) const override;
   bool owns(const Vec3& point) const override;
@@ -29,7 +29,7 @@ class Union : public GeometryPiece {
 /// The points inside all of its pieces.
 class Intersection : public GeometryPiece {
  public:
-  /// Takes at least one piece.
+  /// Constructs the intersection of at least one piece.
   explicit Intersection(std::vector<PiecePtr> pieces) : pieces_(std::move(pieces)) {}
   bool contains(const Vec3& point) const override;
   bool owns(const Vec3& point) const override;
@@ -39,7 +39,8 @@ class Intersection : public GeometryPiece {
   std::vector<PiecePtr> pieces_;
 };
 
-/// The points inside the first piece and outside the second; the faces of the second do not belong to it.
+/// The points inside the first piece and outside the second; the faces of the second piece do not belong to the
+/// difference.
 class Difference : public GeometryPiece {
  public:
   Difference(PiecePtr from, PiecePtr taken) : from_(std::move(from)), taken_(std::move(taken)) {}

@@ -14,7 +14,7 @@ namespace tushar::input {
 
 namespace {
 
-constexpr double polygonHalf = 1e-5;  ///< m, around the plane and the box of a polygon, as in Uintah
+constexpr double polygonHalf = 1e-5;  ///< half the thickness of a polygon and of its bounding box [m], as in Uintah
 
 double crossZ(const Vec3& a, const Vec3& b) { return a[0] * b[1] - a[1] * b[0]; }
 
@@ -28,8 +28,8 @@ Polygon::Polygon(std::vector<Vec3> corners) : corners_(std::move(corners)) {
   bounds_.max.array() += polygonHalf;
 }
 
-/// For the point + s d, where it meets the side from a to b: s = (b - a) x (point - a) / ((b - a).n), and (point - a).n
-/// / ((b - a).n) of the side, where n is perpendicular to the ray d.
+/// For the intersection of the line point + s d with the side from a to b: s = (b - a) x (point - a) / ((b - a).n), and
+/// its position on the side is (point - a).n / ((b - a).n), where n is perpendicular to the ray d.
 bool Polygon::contains(const Vec3& point) const {
   if ((point.array() < bounds_.min.array()).any() || (point.array() > bounds_.max.array()).any()) return false;
   const Vec3 ray = Vec3(1 / std::numbers::pi, std::numbers::pi, 0).normalized(), across(-ray[1], ray[0], 0);
@@ -114,7 +114,7 @@ void checkHalfSpace(const HalfSpace& space, const Element& element, Diagnostics&
     return diagnostics.error(element, absolute ? "type absolute needs <planePoint> and <normal>, and no <offset>"
                                                : "type relative needs <offset>, and no <planePoint> or <normal>");
   if ((absolute ? *space.normal : *space.offset).isZero(0))
-    diagnostics.error(element, absolute ? "normal: must not be 0" : "offset: must not be 0");
+    diagnostics.error(element, absolute ? "the normal is 0" : "the offset is 0");
 }
 
 void checkPolyhedron(const Polyhedron& shape, const Element& element, Diagnostics& diagnostics) {

@@ -12,11 +12,11 @@
 
 namespace tushar::input {
 
-/// A polygon in the plane z = 0, within 1e-5 m of it as in Uintah. A ray from the point crosses its sides an odd number
-/// of times.
+/// A polygon in the plane z = 0, extended to all z within 1e-5 m of this plane, as in Uintah. A point is inside if a
+/// ray from it crosses the sides of the polygon an odd number of times.
 class Polygon : public GeometryPiece {
  public:
-  /// Takes at least three corners, in order around the polygon; their z is ignored.
+  /// Constructs a polygon from at least three corners, in order around it; their z coordinates are ignored.
   explicit Polygon(std::vector<Vec3> corners);
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override { return bounds_; }
@@ -26,18 +26,19 @@ class Polygon : public GeometryPiece {
   Box3 bounds_;
 };
 
-/// The corners of a polygon: a line `x y` for each, in the file `path`. If a line is malformed, there are fewer than
-/// three, or there is no such file, reports an error at `tag` and returns no corners.
+/// Reads the corners of a polygon from the file `path`, which has one line `x y` for each corner. If the file is
+/// missing, a line is malformed, or there are fewer than three corners, reports an error at `tag` and returns no
+/// corners.
 std::vector<Vec3> readPolygon(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 
-/// A plane through a point; its normal points into the body.
+/// A half-space, bounded by a plane; the normal of the plane points into the body.
 struct HalfSpace {
-  std::string type;                   ///< absolute or relative
-  std::optional<Vec3> point, normal;  ///< absolute: the point (m), and the normal
-  std::optional<Vec3> offset;         ///< relative: the vector from the centre of the body to the plane (m)
+  std::string type;                   ///< how the plane is given: absolute or relative
+  std::optional<Vec3> point, normal;  ///< absolute: a point [m] on the plane, and the normal
+  std::optional<Vec3> offset;         ///< relative: the vector from the centre of the body to the plane [m]
 };
 
-/// The points on the inner side of all of its planes, or on them.
+/// The points that are on the inner side of all planes, or on the planes.
 struct Polyhedron : GeometryPiece {
   struct Planes {
     std::vector<HalfSpace> list;
@@ -46,14 +47,14 @@ struct Polyhedron : GeometryPiece {
   Planes planes;
 
   bool contains(const Vec3& point) const override;
-  /// The box of its corners.
+  /// The bounding box of the corners.
   Box3 bounds() const override;
-  /// Where three of its planes meet on the inner side of all others.
+  /// The corners: points where three planes meet on the inner side of all others.
   std::vector<Vec3> corners() const;
   static const Schema<Polyhedron>& schema();
 
  private:
-  /// A point in a plane, and the unit normal into the body.
+  /// A point on the plane, and its unit normal, which points into the body.
   std::pair<Vec3, Vec3> plane(const HalfSpace& space) const;
   bool isWithin(const Vec3& point, double tolerance) const;
 };

@@ -12,7 +12,7 @@ namespace tushar::input {
 
 namespace {
 
-/// The schema of a shape with a label, which readGeometry itself reads.
+/// The schema of a shape with a label; the label is read by readGeometry.
 template <class T>
 Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
   Schema<T> schema(name, sentence);
@@ -31,7 +31,7 @@ void checkAxis(const T& shape, const Element& element, Diagnostics& diagnostics)
 void checkBox(const Box& box, const Element& element, Diagnostics& diagnostics) {
   for (int d = 0; d < 3; ++d) {
     if (box.max[d] > box.min[d]) continue;
-    diagnostics.error(element, fmt::format("the box has no extent along {}: max {} must be above min {}", "xyz"[d],
+    diagnostics.error(element, fmt::format("the box has no extent along {}: max {} is not above min {}", "xyz"[d],
                                            box.max[d], box.min[d]));
   }
 }
@@ -46,13 +46,13 @@ void checkEllipsoid(const Ellipsoid& shape, const Element& element, Diagnostics&
   }
   const auto v = shape.semiAxes();
   if (v[0].isZero(0) || v[1].isZero(0) || v[2].isZero(0)) {
-    diagnostics.error(element, "the semi-axes v1, v2 and v3 must not be zero");
+    diagnostics.error(element, "one of the semi-axes v1, v2 and v3 is zero");
     return;
   }
   // Scenes give directions to a few digits.
   const auto skewed = [](const Vec3& a, const Vec3& b) { return std::abs(a.dot(b)) > 1e-6 * a.norm() * b.norm(); };
   if (skewed(v[0], v[1]) || skewed(v[1], v[2]) || skewed(v[2], v[0])) {
-    diagnostics.error(element, "the semi-axes v1, v2 and v3 must be perpendicular to each other");
+    diagnostics.error(element, "the semi-axes v1, v2 and v3 are not perpendicular to each other");
   }
 }
 
@@ -143,7 +143,8 @@ const Schema<Torus>& Torus::schema() {
   static const Schema<Torus> schema =
       shapeSchema<Torus>("torus", "A ring.")
           .required("center", &Torus::center, "m", "centre")
-          .required("major_radius", &Torus::majorRadius, "m", "radius of the ring", nonNegative())
+          .required("major_radius", &Torus::majorRadius, "m",
+                    "radius of the ring, from its axis to the centre of the tube", nonNegative())
           .required("minor_radius", &Torus::minorRadius, "m", "radius of the tube", positive())
           .requiredChoice("axis", &Torus::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, "axis of the ring")
           .value("theta", &Torus::theta, 0.0, "rad",

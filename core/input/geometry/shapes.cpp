@@ -10,7 +10,7 @@ namespace tushar::input {
 
 namespace {
 
-/// The box of a disc of that radius around `center`, perpendicular to the unit vector `normal`.
+/// The bounding box of a disc with a given radius around `center`, perpendicular to the unit vector `normal`.
 Box3 discBounds(const Vec3& center, const Vec3& normal, double radius) {
   const Vec3 half = radius * (1.0 - normal.array().square()).max(0.0).sqrt().matrix();
   return {center - half, center + half};

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// The rotation by the smallest angle that turns the z axis into `direction`. Eigen's, with one of the axes in place of
-/// a singular value decomposition, which takes the compiler seconds, where the two are opposite.
+/// The rotation by the smallest angle that turns the z axis into `direction`. Uses Eigen's function except for opposite
+/// directions, for which Eigen's singular value decomposition takes the compiler seconds.
 Eigen::Matrix3d turnOfZ(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d z(0, 0, 1), end = direction.normalized(), normal = z.cross(end);
   const double cosine = end.dot(z);
@@ -112,8 +112,8 @@ const Schema<SmoothCylinder>& SmoothCylinder::schema() {
         .choice("discretization_scheme", &Self::scheme,
                 {{"pie_slices", Scheme::pieSlices}, {"constant_particle_volumes", Scheme::constantVolumes}},
                 Scheme::pieSlices,
-                "number of particles in a ring: num_angular, or such that each particle is about as long as the ring "
-                "is wide")
+                "how many particles a ring has: num_angular, or as many as make each particle about as long as the "
+                "ring is wide")
         .required("bottom", &Self::bottom, "m", "centre of one end")
         .required("top", &Self::top, "m", "centre of the other end")
         .value("inner_radius", &Self::innerRadius, 0, "m", "radius of the hole", nonNegative())

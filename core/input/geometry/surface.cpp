@@ -12,13 +12,13 @@ namespace tushar::input {
 
 namespace {
 
-/// A point in the plane z = const: y and x.
+/// The coordinates y and x of a point in a plane z = const.
 struct Cut {
   double y, x;
 };
 
-/// The point at which an edge crosses the height z, computed from its lower end to its upper one, whichever is given
-/// first.
+/// The point at which an edge crosses the height z. It is always computed from the lower end to the upper one,
+/// whichever end is given first.
 Cut cutAt(double z, Vec3 a, Vec3 b) {
   if (b[2] < a[2]) std::swap(a, b);
   const double share = (z - a[2]) / (b[2] - a[2]);
@@ -38,7 +38,7 @@ std::optional<double> crossingOf(const Vec3& point, const std::array<Vec3, 3>& c
   return cuts[0].x + share * (cuts[1].x - cuts[0].x);
 }
 
-/// The same point with cyclically permuted coordinates, so that the one along `axis` comes first.
+/// The same point with cyclically permuted coordinates, so that the coordinate along `axis` comes first.
 Vec3 turned(const Vec3& point, int axis) { return {point[axis], point[(axis + 1) % 3], point[(axis + 2) % 3]}; }
 
 using Corner = std::array<double, 3>;

@@ -18,9 +18,9 @@ namespace tushar::input {
 namespace {
 
 constexpr std::size_t headerBytes = 84,
-                      facetBytes = 50;  ///< of a binary file: header with a count, facet
+                      facetBytes = 50;  ///< sizes of the parts of a binary file: header with a count, facet
 
-/// The content of a file, or why it cannot be used.
+/// The content of a file, or the reason why it cannot be used.
 struct Read {
   Triangles triangles;
   std::string problem;
@@ -101,7 +101,7 @@ std::optional<std::string> slurp(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-/// Reads three numbers per line; empty lines are ignored. Otherwise `problem` names the line.
+/// Reads three numbers per line; empty lines are ignored. If a line is invalid, `problem` names it.
 template <class Number>
 std::vector<std::array<Number, 3>> readTriples(const std::string& text, std::string& problem) {
   std::vector<std::array<Number, 3>> triples;
@@ -118,7 +118,7 @@ std::vector<std::array<Number, 3>> readTriples(const std::string& text, std::str
   return triples;
 }
 
-/// Reads the pair of files of Uintah: points, and triangles.
+/// Reads Uintah's pair of files: points (.pts) and triangles (.tri).
 Read joinPoints(const std::string& points, const std::string& corners) {
   Read read;
   const auto places = readTriples<double>(points, read.problem);

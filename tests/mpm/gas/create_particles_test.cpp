@@ -38,7 +38,7 @@ Gas gasOf(const std::vector<std::pair<std::string, std::string>>& boxes, int per
   return gas;
 }
 
-/// Position by id of what createParticles makes on all patches.
+/// Returns the positions, by id, of the particles that createParticles makes on all patches.
 std::map<ParticleId, double> made(const Gas& gas, int patches) {
   test::Runner run(test::domain({{10, 1, 1}}, {{patches, 1, 1}}));
   const std::vector<Gas> materials{gas};

@@ -15,13 +15,13 @@
 
 namespace tushar::mpm::gas {
 
-/// A scene of one gas that has been run to its end.
+/// A scene with one gas, run to its end.
 class GasScene {
  public:
   explicit GasScene(const std::string& scene) : run_(read(scene), quiet(), std::chrono::steady_clock::now()) {
     EXPECT_EQ(run_.run().failure, "");
   }
-  /// The values of its particles, one after the other, vectors in x, y, z.
+  /// Returns the values of the particles one after another; vectors as x, y, z.
   std::vector<double> values(const char* label) {
     data::Warehouse& warehouse = run_.warehouse();
     const auto array = collect::Gather(warehouse).array(data::Generation::old, warehouse.table().find(label, 0));
@@ -43,7 +43,7 @@ class GasScene {
   simulation::Simulation run_;
 };
 
-/// Symmetry planes all around a grid.
+/// Returns the tags of symmetry planes all around a grid.
 inline std::string walls() {
   std::string faces;
   for (const char* side : {"x-", "x+", "y-", "y+", "z-", "z+"})

@@ -10,7 +10,7 @@ namespace tushar::mpm::gas {
 
 namespace {
 
-/// How many new units make one of the old: of length, time and mass.
+/// Conversion factors of length, time and mass: new units per old unit.
 struct Units {
   double length = 1, time = 1, mass = 1;
 
@@ -50,12 +50,12 @@ std::string tube(const Half& left, const Half& right, const Units& units, const 
       0.3 * units.time, walls(), -units.length, units.length, method, body(-1, 0, left), body(0, 1, right));
 }
 
-/// What a particle has at the end.
+/// The state of a particle at the end of a run.
 struct Particle {
   double x, velocity, energy;
 };
 
-/// The particles at the end of a scene, from left to right.
+/// Returns the particles at the end of a scene, from left to right.
 std::vector<Particle> run(const std::string& scene) {
   GasScene run(scene);
   const auto x = run.values("p.x"), velocity = run.values("p.velocity"), energy = run.values("p.internalEnergy");
@@ -65,10 +65,10 @@ std::vector<Particle> run(const std::string& scene) {
   return particles;
 }
 
-/// Sod's tube, moving.
+/// The two states of Sod's tube, with an added velocity.
 constexpr Half dense{1, 0.75, 1}, thin{0.125, -0.25, 0.1};
 
-/// Two gases that meet, so that cells hold up to six particles.
+/// Two gases that collide, so that cells hold up to six particles.
 constexpr Half hard{1, 3, 1}, soft{1, -2, 0.01};
 
 /// The greatest difference of two runs, the second in other units: relative to the box, the speed of sound and its

@@ -16,14 +16,14 @@ const std::vector<std::string> methods{
     "<conserving_gas_dynamics><transfer>affine_flip</transfer><remap><every>4</every></remap></"
     "conserving_gas_dynamics>"};
 
-using Signs = std::array<int, 3>;  ///< -1 along the axes that are mirrored
+using Signs = std::array<int, 3>;  ///< -1 along the axes that are mirrored, 1 along the others.
 
 struct Body {
   std::array<double, 3> lower, upper, velocity;
   double density, pressure;
 };
 
-/// Bodies that fill the box from -1 to 1 m; with them no part of it is like another.
+/// Bodies that fill the box from -1 to 1 m without any symmetry.
 const std::vector<Body> bodies{{{-1, -1, -1}, {-.25, 1, 1}, {.3, .2, .1}, 1, 1},
                                {{-.25, -1, -1}, {1, 0, 1}, {-.2, .5, -.2}, .5, .4},
                                {{-.25, 0, -1}, {.5, 1, .25}, {.1, -.3, .2}, .2, .3},
@@ -42,7 +42,7 @@ std::string geomObject(const Body& body, const Signs& signs) {
       fmt::join(lower, ","), fmt::join(upper, ","), fmt::join(velocity, ","), body.density, body.pressure);
 }
 
-/// The same with values that vary within cells.
+/// As above, with values that vary within cells.
 std::string varying(const Signs& signs) {
   const std::string x = fmt::format("({}*x)", signs[0]), y = fmt::format("({}*y)", signs[1]);
   return fmt::format(
@@ -52,7 +52,7 @@ std::string varying(const Signs& signs) {
       x, y, signs[0], signs[1]);
 }
 
-/// Position, velocity and energy of each particle, turned back and sorted.
+/// Returns position, velocity and energy of each particle, mirrored back and sorted.
 std::vector<std::array<double, 7>> run(const std::string& gas, const std::string& method, const Signs& signs,
                                        const std::string& resolution) {
   GasScene scene(
@@ -79,7 +79,7 @@ std::vector<std::array<double, 7>> run(const std::string& gas, const std::string
   return particles;
 }
 
-/// All bodies, or those that a plane in the middle along z cuts.
+/// Returns the geometry of all bodies; planeOf() returns that of the bodies which the plane in the middle of z cuts.
 std::string boxOf(const Signs& signs) {
   std::string all;
   for (const Body& body : bodies) all += geomObject(body, signs);

@@ -23,8 +23,8 @@ Level grid() {
   return Level(domain);
 }
 
-/// A particle somewhere, in one of the ways that shape functions may go wrong: anywhere, on a face between cells, on an
-/// edge or corner, right at a side of the grid, or a hair's breadth from one of these.
+/// A particle at a position where shape functions may go wrong: anywhere, on a face between cells, on an edge or
+/// corner, right at a side of the grid, or a hair's breadth from one of these.
 template <int D>
 struct Somewhere {
   Index<D> cell;
@@ -105,7 +105,7 @@ TYPED_TEST(EveryShape, TouchesOnlyNodesThatItSaysItDoes) {
   }
 }
 
-/// Records of the nodes around a particle, one after another.
+/// The records of the nodes around a particle, one after another.
 template <class Shape>
 struct Nodes {
   static constexpr int D = Shape::dimension, n = Shape::Stencil::nodes;
@@ -175,7 +175,7 @@ TYPED_TEST(EveryShape, GathersWhatItsNodesSay) {
   }
 }
 
-/// Particles of one cell, as many as lanes or fewer.
+/// Particles of one cell, at most as many as there are SIMD lanes.
 template <class Shape>
 struct InOneCell {
   static constexpr int D = Shape::dimension;

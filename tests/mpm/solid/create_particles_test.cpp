@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// A row of 32 cells of 1/32 m, each of up to 4 finest ones; of these those between two places.
+/// A row of 32 cells of 1/32 m; between two positions each is divided into 4 finest cells.
 grid::Domain row(double lower, double upper) {
   grid::Domain domain;
   domain.upper = {1, 0, 0};
@@ -21,7 +21,7 @@ grid::Domain row(double lower, double upper) {
   return domain;
 }
 
-/// A plate in the finest cells 39 and 40, of the coarsest ones 9 and 10, in whose middles it is not; moved by a little.
+/// A plate in the finest cells 39 and 40, away from the centres of the coarsest cells 9 and 10, with a small shift.
 Material plate(double shift) {
   auto shape = std::make_shared<input::Box>();
   shape->min = Vec3(39.0 / 128, -1, -1);
@@ -38,7 +38,7 @@ Material plate(double shift) {
   return material;
 }
 
-/// Particles by level and cell.
+/// Returns the number of particles by level and cell.
 std::map<std::pair<int, int>, int> made(const grid::Domain& domain, double shift) {
   test::Runner run(domain);
   std::vector<Material> materials{plate(shift)};

@@ -31,7 +31,7 @@ class Faulty : public simulation::Component {
   std::unique_ptr<simulation::Component> heat_;
 };
 
-/// All components, but for heat a faulty one.
+/// Returns all components, with a faulty one in place of heat.
 simulation::Catalogue faultyCatalogue(const std::vector<std::string>&) {
   const simulation::Catalogue known = catalogue();
   std::vector<simulation::ComponentKind> components;

@@ -5,7 +5,8 @@
     python3 calibrate_yield_stress.py --length 23e-3        one that was measured longer
     python3 calibrate_yield_stress.py --cells 24,84         the scene's own resolution
 
-Coarse bars end longer, so the yield stress that fits depends on the resolution: calibrate with the one that you use.
+Bars are longer at the end on coarse grids, so the fitted yield stress depends on the resolution: calibrate with the
+resolution that you use.
 """
 import argparse
 
@@ -18,7 +19,7 @@ YIELD_STRESS = "MaterialProperties/MPM/material/constitutive_model/flow_model/si
 
 
 def final_length(yield_stress, cells):
-    """Length of the bar at the end of the scene [m]: to its topmost particles, plus half of their spacing."""
+    """Length of the bar at the end of the run [m]: to its topmost particles, plus half of their spacing."""
     run = tushar.run(SCENE, {YIELD_STRESS: yield_stress, "Grid/Level/Box/resolution": [*cells, 1],
                              "DataArchiver/outputInterval": 1})
     last = run.archive[-1]
@@ -26,7 +27,8 @@ def final_length(yield_stress, cells):
 
 
 def calibrate(length, cells, lowest=200e6, highest=800e6, accuracy=1e6):
-    """Yield stress [Pa] between two bounds; prints what it tries. ValueError if none of them gives that length [m]."""
+    """Finds the yield stress [Pa] between two bounds; prints each attempt. Raises ValueError if none of them gives that
+    length [m]."""
     def excess(yield_stress):
         found = final_length(yield_stress, cells)
         print(f"{yield_stress / 1e6:7.1f} MPa: {found * 1e3:6.2f} mm", flush=True)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the path of a particle's stress through a run: pressure against von Mises' stress.
+"""Draws the stress path of a particle during a run: von Mises stress against pressure.
 
     python3 stress_path.py crushed_sandstone.uda path.png       of a run that saved p.stress
 """
@@ -11,14 +11,14 @@ import tushar
 
 
 def invariants(stress):
-    """Pressure and von Mises' stress [Pa] of a stress (3, 3) [Pa]."""
+    """Pressure and von Mises stress [Pa] of a stress tensor (3, 3) [Pa]."""
     pressure = -np.trace(stress) / 3
     deviator = stress + pressure * np.eye(3)
     return pressure, np.sqrt(1.5 * np.sum(deviator**2))
 
 
 def stress_path(archive, particle=0):
-    """Times [s], pressures and von Mises stresses [Pa] of a particle, given by its index in the first output."""
+    """Times [s], pressures and von Mises stresses [Pa] of a particle given by its index in the first output."""
     path = [invariants(np.reshape(output["p.stress"][particle], (3, 3))) for output in archive[:]]
     return np.array(archive.times), *np.transpose(path)
 

@@ -1,4 +1,4 @@
-"""Reads a `.uda` archive: the one reader of this project."""
+"""Reads `.uda` archives; all other Python code of this project uses this module for that."""
 from __future__ import annotations
 
 import difflib
@@ -37,7 +37,7 @@ class Variable:
 
 @dataclass
 class Series:
-    """A global quantity over time: `times` [s] (n,), `values` (n,) or (n, components)."""
+    """A global quantity as a function of time: `times` [s] (n,), `values` (n,) or (n, components)."""
     name: str
     unit: str
     description: str
@@ -103,7 +103,7 @@ class Globals(Mapping[str, Series]):
         return Series(name, variable.unit, variable.description, table[:, 0], values)
 
     def to_pandas(self) -> Any:
-        """A DataFrame of all quantities by time [s]; units in `frame.attrs["units"]`."""
+        """A DataFrame of all quantities, indexed by time [s]; units in `frame.attrs["units"]`."""
         from tushar import frames
         return frames.of_globals(self)
 
@@ -132,7 +132,7 @@ class Archive(Sequence[Snapshot]):
             raise ArchiveError(f"cannot read '{path}', which is damaged: {error}") from None
 
     def _read(self, index: ElementTree.Element) -> None:
-        """Contents of the index; ValueError if a number is not valid."""
+        """Contents of the index; raises ValueError if a number is invalid."""
         self.version = index.get("version", "")
         if int(index.get("format", FORMAT)) > FORMAT:
             raise ArchiveError(f"'{self.folder}' has format {index.get('format')}, but this reader supports only "
@@ -149,7 +149,7 @@ class Archive(Sequence[Snapshot]):
         self.files = [os.path.join(self.folder, name) for _, _, name in outputs]
 
     def _not_an_archive(self) -> str:
-        """A description of a path that is not an archive, and the archive that may be meant."""
+        """Message for a path that is not an archive; names the archive that may be meant."""
         numbered = sorted(glob.glob(glob.escape(self.folder) + ".[0-9]*"))
         above, name = os.path.split(self.folder)
         if os.path.isdir(self.folder):
@@ -166,7 +166,7 @@ class Archive(Sequence[Snapshot]):
 
     @staticmethod
     def _links(folder: str) -> List[str]:
-        """The archives in a folder, without those of earlier runs."""
+        """The archives in a folder, without those of earlier runs with the same name."""
         return sorted(glob.glob(os.path.join(glob.escape(folder), "*.uda")))
 
     @staticmethod
@@ -185,7 +185,7 @@ class Archive(Sequence[Snapshot]):
         return len(self.times)
 
     def __getitem__(self, index: Any) -> Any:
-        """The output `index`, or a list of those of a slice."""
+        """The output with this index, or a list of outputs for a slice."""
         if isinstance(index, slice):
             return [self[k] for k in range(*index.indices(len(self)))]
         if isinstance(index, str):
@@ -199,12 +199,12 @@ class Archive(Sequence[Snapshot]):
         return Snapshot(self, index, self.files[index], self.times[index], self.steps[index])
 
     def at(self, time: float) -> Snapshot:
-        """The output nearest to a time [s]."""
+        """The output whose time is nearest to a time [s]."""
         found: Snapshot = self[self.index_at(time)]
         return found
 
     def index_at(self, time: float) -> int:
-        """The index of the output nearest to a time [s]."""
+        """The index of the output whose time is nearest to a time [s]."""
         if not self.times:
             raise ArchiveError(f"'{self.folder}' has no outputs yet")
         return int(np.argmin(np.abs(np.array(self.times) - time)))
@@ -223,7 +223,7 @@ class Archive(Sequence[Snapshot]):
 
     @property
     def title(self) -> str:
-        """`Meta/title` of the scene; the folder's name if it has none."""
+        """The title of the scene, `Meta/title`; the folder's name if there is none."""
         try:
             title = (_xml(os.path.join(self.folder, "input.xml")).findtext("Meta/title") or "").strip()
         except ArchiveError:
@@ -243,7 +243,7 @@ class Archive(Sequence[Snapshot]):
 
     @property
     def materials(self) -> List[str]:
-        """Names of the materials that have any variable."""
+        """Names of the materials that have variables."""
         return list(dict.fromkeys(name for variable in self.variables.values() for name in variable.materials))
 
     @property
@@ -274,21 +274,21 @@ class Archive(Sequence[Snapshot]):
         raise ArchiveError(f"there is no report of '{self.folder}': sus --json report.json writes one next to it")
 
     def particles(self, ids: Optional[Sequence[int]] = None, material: Optional[str] = None) -> Tracks:
-        """Particles over time, by their ids; by default all particles of the last output."""
+        """Particles over time, identified by their ids; by default all particles of the last output."""
         return Tracks(self, ids, material)
 
     def to_xarray(self, variables: Optional[Sequence[str]] = None) -> Any:
-        """A Dataset of the fields on cells and nodes over time, whose values are read when they are used."""
+        """A Dataset of the fields on cells and nodes over time; values are read when they are used."""
         from tushar import frames
         return frames.dataset(self, list(self), variables)
 
     def to_pandas(self) -> Any:
-        """The global quantities over time as a DataFrame; those of one output: `archive[-1].to_pandas()`."""
+        """The global quantities over time as a DataFrame; for a single output use `archive[-1].to_pandas()`."""
         return self.globals.to_pandas()
 
 
 class OutputError(ArchiveError, IndexError):
-    """The error for an index without an output."""
+    """Error for an index that has no output."""
 
 
 def open_archive(path: Any) -> Archive:

@@ -1,4 +1,4 @@
-"""Arrays of an archive that are read when their values are used, and only the part that is used."""
+"""Arrays of an archive that are read only when their values are used, and only the part that is used."""
 from __future__ import annotations
 
 from typing import Any, Sequence, Tuple
@@ -9,11 +9,11 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 
 class Array(NDArrayOperatorsMixin):
-    """Values of a variable, which remain on the disk until they are used: `array[::10]` reads every tenth row,
+    """Values of a variable that remain on the disk until they are used: `array[::10]` reads every tenth row,
     `array.values` all.
 
-    It takes part in arithmetic and in numpy's functions, which return plain numpy arrays. Particles of several
-    materials follow one another, in the order of the scene. `unit` is that of the archive, `kg/m^3`; `1` for none.
+    It supports arithmetic and numpy's functions, which return plain numpy arrays. Particles of several materials are
+    concatenated in the order of the scene. `unit` is the unit in the archive, such as `kg/m^3`; `1` if dimensionless.
     """
 
     def __init__(self, parts: Sequence[h5py.Dataset], name: str = "", unit: str = "", description: str = "") -> None:
@@ -32,7 +32,7 @@ class Array(NDArrayOperatorsMixin):
 
     @property
     def values(self) -> np.ndarray[Any, Any]:
-        """All values, read now."""
+        """All values; reads them now."""
         if len(self._parts) == 1:
             return np.asarray(self._parts[0][()])
         return np.concatenate([part[()] for part in self._parts])
@@ -45,7 +45,7 @@ class Array(NDArrayOperatorsMixin):
         return f"<Array {self.name}{unit}, shape {self.shape}, {self.dtype}, not read yet>"
 
     def __getitem__(self, key: Any) -> Any:
-        """Like numpy's indexing of all values, but slices and numbers read only the selected values."""
+        """Like numpy's indexing of the whole array, but slices and numbers read only the selected values."""
         if not is_basic(key):
             return self.values[key]
         if any(runs_backwards(item) for item in (key if isinstance(key, tuple) else (key,))):
@@ -89,7 +89,8 @@ class Array(NDArrayOperatorsMixin):
         return getattr(ufunc, method)(*[item.values if isinstance(item, Array) else item for item in inputs], **options)
 
     def __getattr__(self, name: str) -> Any:
-        """Other attributes of numpy's arrays, such as `max()`, `mean(axis=0)` and `T`: of all values, read now."""
+        """Other attributes of numpy's arrays, such as `max()`, `mean(axis=0)` and `T`: they apply to all values, which
+        are read now."""
         if name.startswith("_"):
             raise AttributeError(name)
         return getattr(self.values, name)
@@ -103,5 +104,5 @@ def is_basic(key: Any) -> bool:
 
 
 def runs_backwards(item: Any) -> bool:
-    """Whether an item of a key is a slice with a step below 0."""
+    """Whether an item of a key is a slice with a negative step."""
     return isinstance(item, slice) and item.step is not None and item.step < 0

@@ -1,4 +1,4 @@
-"""The files of global quantities: a line for each step, the time [s] and the values."""
+"""Reads the files of global quantities, which have one line for each step: the time [s] and the values."""
 from __future__ import annotations
 
 import os
@@ -6,7 +6,8 @@ from typing import List, Union
 
 
 def rows_of(path: Union[str, "os.PathLike[str]"]) -> List[List[float]]:
-    """The numbers of each line, without an incomplete last line that a run is still writing. OSError where there is no
+    """The numbers in each line, without an incomplete last line that a run is still writing. Raises OSError where there
+    is no
     file."""
     with open(path, encoding="utf-8") as file:
         lines = [line.split() for line in file if line.endswith("\n") and not line.startswith("#")]

@@ -19,11 +19,12 @@ class ArchiveError(TusharError):
 
 
 class MissingLibrary(TusharError, ImportError):
-    """An optional library that is not installed."""
+    """Error for an optional library that is not installed."""
 
 
 class SusError(TusharError):
-    """A run that failed. `sentences` are the messages of sus, `code` is its exit code, `run` what the run left."""
+    """Error for a failed run. `sentences` are the messages of sus, `code` is its exit code, `run` contains what the run
+    left."""
 
     def __init__(self, message: str, code: int = 1, run: Optional[Run] = None) -> None:
         super().__init__(message)
@@ -41,7 +42,7 @@ class InputError(SusError):
 
 
 class NumericalError(SusError):
-    """Exit code 4: a value became unphysical during the run. `run.archive` holds the outputs up to there."""
+    """Exit code 4: a value became unphysical during the run. `run.archive` contains the outputs until then."""
 
 
 class Interrupted(SusError):
@@ -65,7 +66,7 @@ def check_name(kind: str, name: str, names: Iterable[str]) -> str:
 
 
 def need(module: str, what: str) -> ModuleType:
-    """An optional library; if it is not installed, MissingLibrary with the package to install."""
+    """Imports an optional library; raises MissingLibrary with the package to install if it is not installed."""
     try:
         return importlib.import_module(module)
     except ImportError:

@@ -31,7 +31,7 @@ LETTER = 0.108  # width of one in a title [inch]
 
 
 def choose(output: Output) -> Tuple[List[str], List[str]]:
-    """The labels to draw by default, and notes on missing ones."""
+    """Chooses the labels to draw by default; notes missing ones."""
     archive, dimension = output.snapshot.archive, len(output.axes)
     counts, wanted = output.snapshot.materials, output.view.material
     held = [name for name, count in counts.items() if count and wanted in (None, name)]
@@ -56,7 +56,7 @@ def choose(output: Output) -> Tuple[List[str], List[str]]:
 
 
 def broken(title: str, letters: int) -> str:
-    """A title in lines of limited length, broken before the time or the position if possible."""
+    """Breaks a title into lines of limited length, before the time or the position if possible."""
     lines: List[str] = []
     for part in title.split(",  "):
         if lines and len(lines[-1]) + len(part) + 3 <= letters:
@@ -67,8 +67,8 @@ def broken(title: str, letters: int) -> str:
 
 
 class Figure:
-    """One output of an archive as a figure. `notes` state what was chosen or could not be drawn. Raises ArchiveError if
-    nothing can."""
+    """One output of an archive as a figure. `notes` describe choices, and parts that could not be drawn. Raises
+    ArchiveError if nothing can be drawn."""
 
     def __init__(self, archive: Archive, index: int = -1, variables: Sequence[str] = (), title: Optional[str] = None,
                  view: Optional[View] = None) -> None:
@@ -87,7 +87,8 @@ class Figure:
                 self._draw(title or self._title())
 
     def _check_slices(self) -> None:
-        """ArchiveError if a slice contains nothing; in a film with common ranges, this is allowed for some outputs."""
+        """Raises ArchiveError if a slice contains nothing; in a film with common ranges, this is allowed for some
+        outputs."""
         slices = self.output.view.slices
         if not slices or self.output.view.ranges:
             return
@@ -188,7 +189,7 @@ class Figure:
                 self._seen(part, quantity, seen)
 
     def _lengths(self) -> List[float]:
-        """Relative lengths of the drawn axes, the longest 1; none is too short for its ticks."""
+        """Relative lengths of the drawn axes, the longest being 1; none is too short for its ticks."""
         long = [high - low for low, high in map(self.output.extent, range(3))]
         return [max(0.15, length / max(long)) for length in long]
 

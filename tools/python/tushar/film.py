@@ -1,4 +1,4 @@
-"""Films of all outputs, and pictures that follow a run."""
+"""Films of all outputs, and pictures that are updated during a run."""
 from __future__ import annotations
 
 import contextlib
@@ -26,7 +26,7 @@ FASTEST, SLOWEST = 25.0, 2.0  # pictures per second
 
 
 def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tuple[List[str], Dict[str, Range]]:
-    """The labels that are drawn for every output, and the range of their values over all outputs."""
+    """The labels drawn for every output, and the range of their values over all outputs."""
     if not archive.times:
         raise ArchiveError(f"'{archive.folder}' has no outputs yet")
     with archive[-1] as last:
@@ -49,21 +49,20 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
 
 
 def _planes(archive: Archive, label: str, view: View) -> Optional[Tuple[float, float, float]]:
-    """The positions of three slices for all pictures: those of the middle output. None where there are fewer
-    dimensions."""
+    """The positions of three slices for all pictures, taken from the middle output; None in fewer dimensions."""
     with archive[len(archive) // 2] as snapshot:
         output = Output(snapshot, view)
         return output.planes(Quantity.of(archive, label)) if len(output.axes) == 3 else None
 
 
 def _round(low: float, high: float, view: View) -> Range:
-    """For a difference, a range symmetric about 0."""
+    """For a difference, extends a range to be symmetric about 0."""
     most = max(abs(low), abs(high))
     return (-most, most) if view.other and low < 0 else (float(low), float(high))
 
 
 def figures(archive: Archive, variables: Sequence[str], title: Optional[str], view: View) -> Iterator[Figure]:
-    """A figure of each output that contains the drawn variables, all with the same ranges."""
+    """A figure for each output that contains the drawn variables, all with the same ranges."""
     labels, ranges = common_ranges(archive, variables, view)
     shown = view.with_ranges(ranges).with_planes(_planes(archive, labels[0], view))
     drawn = 0
@@ -80,7 +79,7 @@ def figures(archive: Archive, variables: Sequence[str], title: Optional[str], vi
 
 
 def check_path(path: str) -> str:
-    """The extension of a film's name; ArchiveError for other extensions, or if the folder does not exist."""
+    """The extension of a film's name; raises ArchiveError for other extensions, or if the folder does not exist."""
     ending = pathlib.Path(path).suffix.lower()
     if ending not in (".gif", ".mp4"):
         raise ArchiveError(f"'{path}' is not a film: its name must end in .mp4 or .gif")
@@ -110,7 +109,7 @@ def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Opt
 
 def _pictures(archive: Archive, drawn: Iterator[Figure], notes: List[str],
               progress: Optional[Progress]) -> Iterator[Any]:
-    """The pictures one by one, as bytes; adds remarks on them to `notes`."""
+    """The pictures one by one, as bytes; adds remarks on the pictures to `notes`."""
     for figure in drawn:
         notes += [note for note in figure.notes if note not in notes]
         if progress:
@@ -119,7 +118,7 @@ def _pictures(archive: Archive, drawn: Iterator[Figure], notes: List[str],
 
 
 def ffmpeg() -> Optional[str]:
-    """The program, or the one in the package imageio-ffmpeg; None if neither is installed."""
+    """The path of the program ffmpeg, or of the one in the package imageio-ffmpeg; None if neither is installed."""
     found = shutil.which("ffmpeg")
     if found:
         return found
@@ -149,7 +148,7 @@ def _write_mp4(program: str, pictures: Iterator[Any], rate: float, path: str) ->
 
 
 def _write_gif(pictures: Iterator[Any], rate: float, path: str) -> None:
-    """All frames have the colours of the first, which includes the colour bar."""
+    """Writes a GIF. All frames use the colours of the first, which includes the colour bar."""
     from PIL import Image
     first = Image.fromarray(next(pictures)).quantize(256, dither=Image.Dither.NONE)
     colours = np.array(first.getpalette()).reshape(-1, 3)
@@ -160,7 +159,7 @@ def _write_gif(pictures: Iterator[Any], rate: float, path: str) -> None:
 
 
 def is_written(folder: str) -> bool:
-    """Whether a run is still writing to an archive: it locks the folder as long as it runs."""
+    """Whether a run is still writing to an archive: a run locks the folder until it ends."""
     try:
         descriptor = os.open(folder, os.O_RDONLY)
     except OSError:

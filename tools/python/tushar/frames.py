@@ -1,4 +1,4 @@
-"""Archives as pandas' frames and xarray's datasets."""
+"""Archives as pandas frames and xarray datasets."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
@@ -25,7 +25,7 @@ def tails(count: int) -> List[str]:
 
 
 def columns_of(name: str, values: Values) -> Dict[str, Values]:
-    """A column for each component of an array (n,) or (n, components)."""
+    """One column for each component of an array (n,) or (n, components)."""
     values = values[:, None] if values.ndim == 1 else values
     return {name + tail: column for tail, column in zip(tails(values.shape[1]), values.T)}
 
@@ -49,7 +49,7 @@ def of_globals(quantities: Globals) -> Any:
 
 
 def of_particles(particles: Particles) -> Any:
-    """A row for each particle; a variable that a material lacks is NaN."""
+    """A frame with a row for each particle; a variable that a material does not have is NaN."""
     pandas = need("pandas", "to_pandas")
     archive = particles.snapshot.archive
     frames, units = [], {}
@@ -84,7 +84,7 @@ def of_snapshot(snapshot: Snapshot, of: Optional[str], material: Optional[str]) 
 
 
 def _of_field(snapshot: Snapshot, centring: str, material: Optional[str]) -> Any:
-    """A row for each cell or node; for a refined grid, a row for each actual cell, with its level."""
+    """A frame with a row for each cell or node; for a refined grid, a row for each actual cell, with its level."""
     columns = places_of(snapshot.grid, centring)
     count = len(next(iter(columns.values())))
     units = {name: "" if name == "level" else "m" for name in columns}
@@ -111,7 +111,8 @@ def rows_of(field: Any) -> Values:
 
 
 def fields_of(snapshot: Snapshot) -> List[Tuple[str, Variable, Optional[str]]]:
-    """Name, variable and material of each field of an output; `g.mass.gas` if several materials have it."""
+    """Name, variable and material of each field of an output; the name is `g.mass.gas` if several materials have the
+    variable."""
     found: List[Tuple[str, Variable, Optional[str]]] = []
     for variable in snapshot.archive.variables.values():
         if variable.centring not in DIMS:
@@ -161,13 +162,14 @@ def _components(variable: Variable) -> Tuple[str, ...]:
 
 
 def _names_of_components(variable: Variable) -> Dict[str, Any]:
-    """Coordinate x, y, z of vectors, xx to zz of tensors."""
+    """Names of the components: x, y, z of vectors, xx to zz of tensors."""
     names = [tail[1:] for tail in tails(variable.components)]
     return {dim: (dim, names, {}) for dim in _components(variable)}
 
 
 def dataset(archive: Archive, snapshots: Sequence[Snapshot], names: Optional[Sequence[str]] = None) -> Any:
-    """Fields over time, lazily. All outputs have the grid and the fields of the last, or not a number; a refined grid
+    """Fields over time, read lazily. All outputs have the grid and the fields of the last, or not a number; a refined
+    grid
     is sampled onto the finest level of the last."""
     xarray = need("xarray", "to_xarray")
     if not snapshots:
@@ -195,7 +197,7 @@ def _places(grid: Grid, centring: str) -> Dict[str, Any]:
 
 
 def _lazy(snapshots: Sequence[Snapshot], variable: Variable, owner: Optional[str]) -> Any:
-    """An array (time, z, y, x, …) of xarray that reads only what is selected."""
+    """An xarray array (time, z, y, x, …) that reads only the selected values."""
     from xarray.backends import BackendArray
     from xarray.core import indexing
 
@@ -221,7 +223,8 @@ def _field(snapshot: Snapshot, variable: Variable, owner: Optional[str]) -> Any:
 
 
 def _values(snapshot: Snapshot, variable: Variable, owner: Optional[str], key: Any, like: Any) -> Values:
-    """The selected values of an output; NaN if it lacks the field, as the initial output lacks variables that are
+    """The selected values of an output; NaN if the output does not have the field, as the initial output lacks
+    variables that are
     computed in steps."""
     with Snapshot(snapshot.archive, snapshot.index, snapshot.path, snapshot.time, snapshot.step) as own:
         held = {name for name, *_ in fields_of(own)}

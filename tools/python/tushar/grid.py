@@ -13,11 +13,11 @@ Values = np.ndarray[Any, Any]
 
 @dataclass
 class Grid:
-    """The grid of an output; vectors are x, y, z. An axis that is not in use has one cell and one node.
+    """The grid of an output; vectors have components x, y, z. An axis that is not in use has one cell and one node.
 
-    Of a refined grid, `spacing` and `cells` are those of the finest of its `levels`, as if all cells were such; `boxes`
-    has a row for each box of cells: level, 0 the coarsest, then lower x, y, z and upper x, y, z in cells of that level.
-    The boxes tile the domain. Where there is one level there are none."""
+    On a refined grid, `spacing` and `cells` are those of the finest of its `levels`, as if the whole grid were that
+    fine; `boxes` has a row for each box of cells: level, 0 the coarsest, then lower x, y, z and upper x, y, z in cells
+    of that level. The boxes tile the domain. On a single level there are no boxes."""
     lower: Values  # corner of the box [m]
     spacing: Values  # widths of a cell [m]
     cells: Values  # numbers of cells
@@ -27,7 +27,7 @@ class Grid:
 
     @property
     def upper(self) -> Values:
-        """The other corner of the box [m]."""
+        """The upper corner of the box [m]."""
         return np.asarray(self.lower + self.spacing * self.cells)
 
     @property
@@ -37,7 +37,7 @@ class Grid:
 
     @property
     def is_refined(self) -> bool:
-        """Whether the output has boxes of several levels."""
+        """Whether the output consists of boxes on several levels."""
         return len(self.boxes) > 0
 
     def factor(self, level: int) -> Values:
@@ -46,7 +46,7 @@ class Grid:
         return np.where(used, 2 ** (self.levels - 1 - level), 1)
 
     def level(self, number: int) -> Grid:
-        """The uniform grid of cells of a level; for levels beyond the finest, cells are halved further."""
+        """The uniform grid with the cells of a level; for levels beyond the finest, cells are halved further."""
         if number < 0:
             raise ArchiveError(f"no level {number}: the coarsest is 0, the finest {self.levels - 1}")
         shift = np.where(np.isin(range(3), self.axes), number + 1 - self.levels, 0)
@@ -71,7 +71,7 @@ class Grid:
         return lines
 
     def nearest(self, centring: str, axis: int, place: float) -> int:
-        """The row of cells or nodes nearest to a coordinate along an axis [m]; ArchiveError if it is outside the
+        """The row of cells or nodes nearest to a coordinate along an axis [m]; raises ArchiveError if it is outside the
         grid."""
         if not self.lower[axis] <= place <= self.upper[axis]:
             raise ArchiveError(f"{'xyz'[axis]} = {place:g} m is outside the grid, which extends from "

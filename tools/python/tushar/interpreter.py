@@ -1,4 +1,4 @@
-"""Finds a Python that has the libraries a tool needs: a machine often has several."""
+"""Finds a Python that has the libraries that a tool needs: a machine often has several Pythons."""
 from __future__ import annotations
 
 import importlib
@@ -35,7 +35,7 @@ def _can_import(module: str) -> bool:
 
 
 def python_with(modules: Sequence[str]) -> Optional[str]:
-    """The first python3 on the path, or the system's, that has the modules."""
+    """The first python3 on the path, or the system's one, that has the modules."""
     folders = os.environ.get("PATH", "").split(os.pathsep)
     found = [shutil.which("python3", path=folder) for folder in folders if folder] + ["/usr/bin/python3"]
     for python in dict.fromkeys(path for path in found if path and os.path.exists(path)):

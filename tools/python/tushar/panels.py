@@ -22,7 +22,7 @@ COLOURS = ["#2b6cb0", "#c05621", "#2f855a", "#6b46c1", "#b83280", "#2c7a7b"]
 
 
 def pretty_unit(unit: str) -> str:
-    """`kg/m^3` -> `kg/m³`."""
+    """A unit as shown in figures: `kg/m^3` -> `kg/m³`."""
     raised = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
     return re.sub(r"\^(-?\d+)", lambda power: power.group(1).translate(raised), unit)
 
@@ -32,12 +32,12 @@ def axis_label(name: str, unit: str) -> str:
 
 
 def words(label: str) -> str:
-    """`c.temperature` -> `temperature`, `p.internalEnergy` -> `internal energy`."""
+    """A label in words: `c.temperature` -> `temperature`, `p.internalEnergy` -> `internal energy`."""
     return re.sub(r"(?<=[a-z])([A-Z])", lambda letter: " " + letter.group(1).lower(), label.split(".")[-1])
 
 
 def name_of(output: Output, quantity: Quantity, on_line: bool = False) -> str:
-    """The name of a quantity on an axis: density, |velocity|, velocity x, difference of density."""
+    """The name of a quantity for an axis: density, |velocity|, velocity x, difference of density."""
     base = quantity.variable.name
     name = next((name for known, _, name in GAS if known == base), words(base))
     if quantity.component is not None:
@@ -48,7 +48,7 @@ def name_of(output: Output, quantity: Quantity, on_line: bool = False) -> str:
 
 
 def profile(panel: Any, output: Output, quantity: Quantity) -> None:
-    """Values along the only remaining axis, with the exact solution if the archive has it."""
+    """Draws values along the only remaining axis, with the exact solution if the archive has it."""
     axis = output.axes[0]
     if quantity.variable.centring == "particle":
         _points_on_line(panel, output, quantity, axis)
@@ -69,7 +69,7 @@ def profile(panel: Any, output: Output, quantity: Quantity) -> None:
 
 
 def _refined_line(panel: Any, output: Output, axis: int, values: Values, colour: str, owner: Optional[str]) -> None:
-    """The cells of a refined grid at their positions, with a marker for each level."""
+    """Draws the cells of a refined grid at their positions, with a different marker for each level."""
     x, levels, cells = output.cells_along(axis)
     panel.plot(x, values[cells], "-", color=colour, linewidth=1.2, label=owner or "cells")
     for level in np.unique(levels):
@@ -83,7 +83,7 @@ def _refined_line(panel: Any, output: Output, axis: int, values: Values, colour:
 
 
 def outlines(panel: Any, output: Output, axes: List[int], slices: Optional[Dict[int, float]] = None) -> None:
-    """The boxes of a refined grid in a plane, if requested."""
+    """Draws the boxes of a refined grid in a plane, if requested."""
     if not output.view.boxes:
         return
     across, up = axes
@@ -125,7 +125,7 @@ def _limit(panel: Any, limits: Range, log: bool) -> None:
 
 
 def plain_marks(axis: Any) -> None:
-    """Ticks 1, 2, 3 on a logarithmic axis, instead of powers, if it spans less than two decades."""
+    """Ticks at 1, 2, 3 instead of powers on a logarithmic axis that spans less than two decades."""
     low, high = axis.get_view_interval()
     if high < 100 * low:
         axis.set_major_formatter(matplotlib.ticker.LogFormatter())
@@ -186,7 +186,7 @@ def _frame(panel: Any, output: Output, across: int, up: int) -> None:
 
 
 def set_ticks(panel: Any, output: Output, across: int, up: int) -> None:
-    """As many ticks as fit: a short axis gets few."""
+    """Sets as many ticks as fit: a short axis gets few."""
     long = [high - low for low, high in map(output.extent, (across, up))]
     for axis, length, least in (("x", long[0], 1), ("y", long[1], 2)):
         panel.locator_params(axis=axis, nbins=int(np.clip(round(6 * length / max(long)), least, 5)))
@@ -228,12 +228,12 @@ def _point_area(output: Output, x: Values, axes: List[int], width: float) -> flo
 
 
 def marker_size(count: int) -> float:
-    """Point size at which `count` points can be distinguished."""
+    """Point size at which `count` points can still be distinguished."""
     return float(np.clip(80 / np.sqrt(max(count, 1)), 0.8, 5))
 
 
 def widen(panel: Any) -> None:
-    """Prevents a constant from being drawn as its rounding errors."""
+    """Widens the range of a constant, so that its rounding errors are not drawn."""
     low, high = panel.get_ylim()
     middle, least = (low + high) / 2, 1e-6 * max(abs(low), abs(high), 1e-12)
     if high - low < least:

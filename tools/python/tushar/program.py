@@ -14,7 +14,7 @@ PRESETS = ("release", "dev")
 
 
 def _tree() -> pathlib.Path:
-    """The root of the repository: above this file or, for an installed package, the working folder or one above."""
+    """The root of the repository: above this file or, for an installed package, the working folder or one above it."""
     here = pathlib.Path(__file__).resolve()
     for folder in (*here.parents, *pathlib.Path(os.path.abspath(".")).joinpath("x").parents):
         if (folder / "tools/run").is_file() and (folder / "ups").is_dir():
@@ -36,7 +36,8 @@ def scene_path(scene: Path) -> pathlib.Path:
 
 
 def find_sus(sus: Optional[Path] = None) -> str:
-    """The program: `sus` if given, else $SUS, the repository's build, the PATH. SusError where it is in none."""
+    """The program: `sus` if given, else $SUS, the repository's build, the PATH. Raises SusError if it is in none of
+    them."""
     named = sus or os.environ.get("SUS")
     if named:
         found = shutil.which(os.fspath(named))
@@ -55,7 +56,7 @@ def find_sus(sus: Optional[Path] = None) -> str:
 
 
 def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, options: Sequence[str] = ()) -> List[str]:
-    """A run that prints nothing; its files and report.json are written to `folder`."""
+    """The command of a run that prints nothing; its files and report.json are written to `folder`."""
     words = [str(sus), str(scene_path(scene)), "--quiet", "--json", str(pathlib.Path(folder, "report.json")),
              "--output", str(folder), *options]
     for override in sets:
@@ -64,8 +65,8 @@ def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, option
 
 
 def run_scene(sus: Path, scene: Path, sets: Sequence[str], folder: Path) -> Dict[str, Any]:
-    """Runs a scene with overrides, with its files in `folder`; returns the report. `failure` is a sentence for one that
-    died, else empty. SceneError for a scene that does not run."""
+    """Runs a scene with overrides, with its files in `folder`; returns the report. Its entry `failure` is the message
+    of a failed run, otherwise empty. Raises SceneError for a scene that does not run."""
     from tushar.runs import read_report
     done = subprocess.run(command_of(sus, scene, sets, folder), capture_output=True, text=True)
     if done.returncode not in (0, 4):
@@ -77,7 +78,8 @@ def run_scene(sus: Path, scene: Path, sets: Sequence[str], folder: Path) -> Dict
 
 
 def ensure_built(sus: str) -> None:
-    """Installs missing packages and builds the release preset, if this is the program and it does not exist."""
+    """If this is the repository's program and it does not exist, installs missing packages and builds the release
+    preset."""
     if sus == SUS and not os.path.exists(sus):
         subprocess.run(["bash", "-euc", '. tools/lib/build.sh; install_missing "${packages[@]}"; build release sus'],
                        cwd=ROOT, check=True)

@@ -11,7 +11,8 @@ from tushar.grid import Grid, Values
 
 
 class Box:
-    """A box of cells of one level of a refined grid; vectors are x, y, z. Its values are read when they are used."""
+    """A box of cells on one level of a refined grid; vectors have components x, y, z. Its values are read when they are
+    used."""
 
     def __init__(self, grid: Grid, row: int, read: Callable[[int], Values]) -> None:
         numbers = grid.boxes[row]
@@ -29,19 +30,19 @@ class Box:
 
     @property
     def values(self) -> Values:
-        """Values of its cells (z, y, x) or (z, y, x, components), read now."""
+        """Values of the box's cells (z, y, x) or (z, y, x, components); reads them now."""
         return self._read(self._row)
 
     def centres(self) -> Values:
-        """The centres of its cells, x fastest (n, 3) [m]."""
+        """The centres of the box's cells, x fastest (n, 3) [m]."""
         lines = [self.lower[axis] + (np.arange(self.cells[axis]) + 0.5) * self.spacing[axis] for axis in range(3)]
         z, y, x = np.meshgrid(*lines[::-1], indexing="ij")
         return np.column_stack([x.ravel(), y.ravel(), z.ravel()])
 
 
 class Refined(Array):
-    """A field on the cells of a refined grid. As an array it has a value for each cell of the finest level, a coarser
-    cell is repeated; slices read the boxes that they touch. `boxes` have the cells as they are."""
+    """A field on the cells of a refined grid. As an array, it has a value for each cell of the finest level, so values
+    of coarser cells are repeated; a slice reads only the boxes that it touches. `boxes` contain the actual cells."""
 
     def __init__(self, data: h5py.Dataset, grid: Grid, name: str = "", unit: str = "", description: str = "") -> None:
         super().__init__([data], name, unit, description)
@@ -55,21 +56,22 @@ class Refined(Array):
 
     @property
     def cell_values(self) -> Values:
-        """Values of all actual cells, box by box: (n,) or (n, components), read now."""
+        """Values of all actual cells, box by box: (n,) or (n, components); reads them now."""
         return np.asarray(self._parts[0][()])
 
     @property
     def boxes(self) -> List[Box]:
-        """The boxes of cells, which tile the domain."""
+        """The boxes of cells; together they cover the domain without overlap."""
         return [Box(self.grid, row, self._read) for row in range(len(self.grid.boxes))]
 
     @property
     def levels(self) -> List[Grid]:
-        """The uniform grid of each level, the coarsest first."""
+        """The uniform grids of all levels, the coarsest first."""
         return [self.grid.level(number) for number in range(self.grid.levels)]
 
     def level(self, number: int) -> Values:
-        """Values on a uniform grid of cells of a level: means of finer cells, and repeated values of coarser ones."""
+        """Values on a uniform grid with the cells of a level: means of finer cells, and repeated values of coarser
+        ones."""
         target = self.grid.level(number)
         found = np.zeros((*target.cells[::-1], *self.shape[3:]))
         for box in self.boxes:
@@ -98,8 +100,8 @@ class Refined(Array):
 
 def sampled(grid: Grid, key: Sequence[Any], read: Callable[[int], Values], kind: Any,
             tail: Tuple[int, ...] = ()) -> Values:
-    """Values at the finest cells that a key (z, y, x) of numbers and slices selects; a number selects an axis of length
-    one. `read` gives those of the box of a row."""
+    """Values at the finest cells selected by a key (z, y, x) of numbers and slices; a number selects an axis of length
+    one. `read(row)` returns the values of the box in that row."""
     rows = [_selected(item, int(count)) for item, count in zip(key, grid.cells[::-1])]
     found = np.empty((*map(len, rows), *tail), kind)
     for number, box in enumerate(grid.boxes):
@@ -113,7 +115,7 @@ def sampled(grid: Grid, key: Sequence[Any], read: Callable[[int], Values], kind:
 
 
 def levels_at(grid: Grid, key: Sequence[Any]) -> Values:
-    """The level of the actual cell at each finest cell that a key selects."""
+    """The level of the actual cell at each finest cell selected by a key."""
     def read(row: int) -> Values:
         return np.full((grid.boxes[row, 4:] - grid.boxes[row, 1:4])[::-1], grid.boxes[row, 0])
 
@@ -128,7 +130,7 @@ def cells_of(grid: Grid) -> Tuple[Values, Values]:
 
 
 def _selected(item: Any, count: int) -> Values:
-    """The indices that a number or a slice selects from a given length."""
+    """The indices that a number or a slice selects on an axis of a given length."""
     if isinstance(item, slice):
         return np.arange(count)[item]
     if not -count <= item < count:
@@ -137,7 +139,7 @@ def _selected(item: Any, count: int) -> Values:
 
 
 def _all_axes(items: Tuple[Any, ...], axes: int) -> Tuple[Any, ...]:
-    """A key with an item for each axis."""
+    """A key completed to one item for each axis."""
     if Ellipsis in items:
         at = items.index(Ellipsis)
         items = (*items[:at], *[slice(None)] * (axes + 1 - len(items)), *items[at + 1:])

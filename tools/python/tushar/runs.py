@@ -18,7 +18,7 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
 
 
 class Temporary:
-    """A folder that is deleted when nothing refers to this object any more."""
+    """A folder that is deleted when no object refers to it any more."""
 
     def __init__(self) -> None:
         self.path = tempfile.mkdtemp(prefix="tushar-")
@@ -26,8 +26,8 @@ class Temporary:
 
 
 class Run:
-    """A run that ended. `report` is what `sus --json` writes, {} where it wrote none; `folder` holds the archive and
-    report.json, for as long as the run or its archive is in use where no output folder was named."""
+    """A finished run. `report` is the output of `sus --json`, {} if there is none. `folder` contains the archive and
+    report.json; if no output folder was named, it is deleted when neither the run nor its archive is in use."""
 
     def __init__(self, scene: Path, sets: Mapping[str, Any], folder: pathlib.Path,
                  keeps: Optional[Temporary] = None) -> None:
@@ -42,7 +42,7 @@ class Run:
 
     @property
     def archive(self) -> Any:
-        """The archive that the run wrote. ArchiveError where it wrote none."""
+        """The archive that the run wrote. Raises ArchiveError if it wrote none."""
         from tushar.archive import Archive
         from tushar.errors import ArchiveError
         written = self.report.get("archive", "")
@@ -57,14 +57,15 @@ class Run:
 def run(scene: Path, sets: Optional[Mapping[str, Any]] = None, *, ranks: int = 1, threads: Optional[int] = None,
         output: Optional[Path] = None, options: Sequence[str] = (), sus: Optional[Path] = None,
         timeout: Optional[float] = None) -> Run:
-    """Runs a scene, its values overridden by `sets`, path -> value: {"Grid/Level/Box/resolution": [200, 1, 1]}.
+    """Runs a scene with overrides `sets`, path -> value: {"Grid/Level/Box/resolution": [200, 1, 1]}.
 
-    A scene is found from the folder worked in or from the root of the repository; the program in `sus`, $SUS, the
-    repository's build or the PATH. `threads` are for each rank, as many as pay if None. The archive goes to the folder
-    `output`, else to one that goes away with the run. `options` are further words for sus. `timeout` [s] ends the run.
+    The scene's path is relative to the current folder or to the root of the repository; the program is searched in
+    `sus`, $SUS, the repository's build and the PATH. `threads` are per rank; None chooses a suitable number. The
+    archive is written to the folder `output`, by default to a folder that is deleted with the run. `options` are
+    further arguments of sus. After `timeout` [s], the run is ended.
 
-    Raises InputError (exit code 3), NumericalError (4), CommandError (2), Interrupted (5), else SusError, with the
-    sentences of sus.
+    Raises InputError (exit code 3), NumericalError (4), CommandError (2), Interrupted (5), otherwise SusError, with the
+    messages of sus.
     """
     program, overrides = find_sus(sus), dict(sets or {})
     words = [*options, *(["--nthreads", str(threads)] if threads else [])]
@@ -82,7 +83,8 @@ def run(scene: Path, sets: Optional[Mapping[str, Any]] = None, *, ranks: int = 1
 
 
 def _finish(command: List[str], ranks: int, timeout: Optional[float], scene: Path) -> Any:
-    """Exit code and standard error of a run. One that is left by an exception (Ctrl-C) is ended."""
+    """Waits for a run; returns its exit code and standard error. If an exception (Ctrl-C) interrupts the wait, the run
+    is ended."""
     environment = {**os.environ, **(MPI if ranks > 1 else {})}
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment)
     try:
@@ -96,7 +98,7 @@ def _finish(command: List[str], ranks: int, timeout: Optional[float], scene: Pat
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    """Ends a run, which has ten seconds to write its output first."""
+    """Ends a run; it first has ten seconds to write its output."""
     process.terminate()
     try:
         process.communicate(timeout=10)
@@ -106,7 +108,7 @@ def _end(process: subprocess.Popen[str]) -> None:
 
 
 def launcher(ranks: int) -> List[str]:
-    """The command that starts a program on several ranks; empty for one."""
+    """The command that starts a program on several ranks; empty for one rank."""
     return [] if ranks == 1 else ["mpirun", "-n", str(ranks)]
 
 
@@ -138,7 +140,7 @@ def text_of(value: Any) -> str:
 
 
 def read_report(folder: Path) -> Optional[Dict[str, Any]]:
-    """The report that a run has left in its folder; None if it has left none."""
+    """The report that a run has written to its folder; None if there is none."""
     path = pathlib.Path(folder, "report.json")
     if not path.exists():
         return None

@@ -28,7 +28,7 @@ def to_pyvista(snapshot: Snapshot) -> Any:
 
 
 def _image(pyvista: Any, snapshot: Snapshot) -> Any:
-    """A grid of one level, with the fields on its cells and nodes. VTK has two nodes where an axis has one."""
+    """A VTK grid of one level, with the fields on its cells and nodes. VTK has two nodes where an axis has one."""
     grid = snapshot.grid
     image = pyvista.ImageData(dimensions=grid.cells + 1, spacing=grid.spacing, origin=grid.lower)
     nodes = tuple(int(count) + 1 for count in grid.cells[::-1])
@@ -43,7 +43,7 @@ def _image(pyvista: Any, snapshot: Snapshot) -> Any:
 
 
 def _boxes(pyvista: Any, snapshot: Snapshot) -> Any:
-    """An image for each box of a refined grid."""
+    """A VTK image for each box of a refined grid."""
     blocks = pyvista.MultiBlock()
     fields = [(name, snapshot[variable.name, owner]) for name, variable, owner in fields_of(snapshot)]
     boxes = [(name, field.boxes) for name, field in fields if isinstance(field, Refined)]
@@ -109,5 +109,5 @@ def _of_particles(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
 
 
 def unit_of(unit: str) -> str:
-    """`kg/m^3` -> `kg/m**3`; no unit for 1."""
+    """A unit in yt's notation: `kg/m^3` -> `kg/m**3`; no unit for 1."""
     return "" if unit == "1" else unit.replace("^", "**")

@@ -1,4 +1,5 @@
-"""Runs a scene that a tool was given instead of an archive, and shows the report; the tool then draws the archive."""
+"""Runs a scene that was given to a tool instead of an archive, and shows the report; the tool then draws the
+archive."""
 from __future__ import annotations
 
 import os
@@ -18,7 +19,7 @@ BY_TIME, BY_STEPS = "DataArchiver/outputInterval", "DataArchiver/outputTimestepI
 
 
 def is_scene(path: str) -> bool:
-    """Whether an argument of the command line names a scene instead of an archive."""
+    """Whether a command-line argument names a scene instead of an archive."""
     return path.endswith(".ups")
 
 
@@ -59,7 +60,7 @@ def run_shown(scene: str, sets: Sequence[str]) -> str:
 
 
 def _wait(process: subprocess.Popen[bytes]) -> int:
-    """The exit code of a run. Ctrl-C reaches the run, too, which then writes its output and ends."""
+    """Waits for a run and returns its exit code. Ctrl-C reaches the run, too, which then writes its output and ends."""
     while True:
         try:
             return process.wait()

@@ -22,9 +22,9 @@ NO_IDS = f'the scene does not save the ids of particles; add <save label="{ID}"/
 class Snapshot:
     """One output of an archive: `snapshot["p.density"]`, `snapshot["c.velocity"]`, `snapshot["g.mass", "gas"]`.
 
-    Arrays of particles have the shape (n,) or (n, components); those of cells and nodes (z, y, x) or (z, y, x,
-    components), of a refined grid those of its finest level (`Refined`). Nothing is read before values are asked for.
-    Wrong names raise ArchiveError.
+    Arrays of particles have the shape (n,) or (n, components), arrays of cells and nodes (z, y, x) or (z, y, x,
+    components); on a refined grid, the shape is that of the finest level (`Refined`). Values are read only when they
+    are used. Wrong names raise ArchiveError.
     """
 
     def __init__(self, archive: Archive, index: int, path: str, time: float, step: int) -> None:
@@ -63,7 +63,7 @@ class Snapshot:
 
     @property
     def grid(self) -> Grid:
-        """The grid; for a refined grid, that of its finest level, with the actual boxes."""
+        """The grid; for a refined grid, the uniform grid of its finest level, with the actual boxes."""
         if self._grid is None:
             group = self.file["grid"]
             kept = group.attrs
@@ -147,7 +147,8 @@ class Snapshot:
         return frames.dataset(self.archive, [self]).isel(time=0)
 
     def to_pyvista(self) -> Any:
-        """A MultiBlock: `cells`, with the fields of cells and nodes, and a PolyData for each material's particles."""
+        """A pyvista MultiBlock: `cells`, with the fields of cells and nodes, and a PolyData for each material's
+        particles."""
         from tushar import scenes3d
         return scenes3d.to_pyvista(self)
 
@@ -178,7 +179,7 @@ class Particles:
 
     @property
     def ids(self) -> Array:
-        """The permanent ids of particles. ArchiveError where the scene does not save them."""
+        """The permanent ids of the particles. Raises ArchiveError if the scene does not save them."""
         if ID not in self.variables:
             raise ArchiveError(NO_IDS)
         return self[ID]
@@ -193,6 +194,6 @@ class Particles:
         return Snapshot._array(parts, variable)
 
     def to_pandas(self) -> Any:
-        """A DataFrame with a row for each particle, by its id if this is saved."""
+        """A DataFrame with a row for each particle, indexed by its id if ids are saved."""
         from tushar import frames
         return frames.of_particles(self)

@@ -1,4 +1,4 @@
-"""Views of three dimensions, drawn by pyvista if it is installed: particles as balls, fields as isosurfaces."""
+"""Views in three dimensions, drawn by pyvista if it is installed: particles as balls, fields as isosurfaces."""
 from __future__ import annotations
 
 import os
@@ -17,7 +17,7 @@ VTK_WITHOUT_SCREEN = 9, 4  # from this version on VTK draws where there is no di
 
 
 def _pyvista() -> Any:
-    """pyvista, or None if it is not installed or cannot draw."""
+    """The module pyvista; None if it is not installed or cannot draw."""
     try:
         pyvista = need("pyvista", "a view in three dimensions")
     except MissingLibrary:
@@ -30,7 +30,7 @@ def _pyvista() -> Any:
 
 
 class Mark(NamedTuple):
-    """A label next to the box: its position, and its alignment there."""
+    """A label next to the box, with its position and alignment."""
     place: Tuple[float, ...]
     text: str
     side: str
@@ -44,7 +44,7 @@ class Seen(NamedTuple):
 
 
 def render(output: Output, quantity: Quantity) -> Optional[Seen]:
-    """A quantity in the whole grid; None if pyvista is not available."""
+    """Draws a quantity in the whole grid; returns None if pyvista is not available."""
     pyvista = _pyvista()
     if pyvista is None:
         return None
@@ -70,7 +70,7 @@ def render(output: Output, quantity: Quantity) -> Optional[Seen]:
 
 
 def _marks(output: Output) -> List[Mark]:
-    """The ends and the name of each axis, next to the edges of the box at the border of the view."""
+    """Labels with the ends and the name of each axis, next to the edges of the box at the border of the view."""
     (x0, x1), (y0, y1), (z0, z1) = (output.extent(axis) for axis in range(3))
     edges = (("x", (x0, x1), lambda x: (x, y1, z0), "left", "top"),
              ("y", (y0, y1), lambda y: (x1, y, z0), "right", "top"),
@@ -83,7 +83,7 @@ def _marks(output: Output) -> List[Mark]:
 
 
 def _on_screen(plotter: Any, place: Tuple[float, ...]) -> Tuple[float, ...]:
-    """Pixels from the left and from the top of a point in space."""
+    """Position of a point in space on the screen, in pixels from the left and from the top."""
     renderer = plotter.renderer
     renderer.SetWorldPoint(*place, 1.0)
     renderer.WorldToDisplay()

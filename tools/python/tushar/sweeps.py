@@ -15,27 +15,27 @@ from tushar.runs import Run, run
 
 @dataclass
 class Point:
-    """One combination: its values by path, and the run, or the error with which it ended."""
+    """One combination of a sweep: its values by path, and the run, or the error with which it ended."""
     values: Dict[str, Any]
     run: Optional[Run] = None
     error: Optional[SusError] = None
 
     @property
     def report(self) -> Dict[str, Any]:
-        """The report of the run, even of a failed one; {} if there is none."""
+        """The report of the run, also of a failed one; {} if there is none."""
         done = self.run or (self.error.run if self.error else None)
         return done.report if done else {}
 
     @property
     def archive(self) -> Any:
-        """The archive of the run; raises the error of one that failed."""
+        """The archive of the run; raises the error of a run that failed."""
         if self.error:
             raise self.error
         assert self.run is not None
         return self.run.archive
 
     def row(self) -> Dict[str, Any]:
-        """Its values, and the numbers of its report: steps, time, seconds, errors.*, drift.*; and failure, a
+        """The point's values, and the numbers of its report: steps, time, seconds, errors.*, drift.*; and failure, a
         message."""
         report = self.report
         known = {"steps": report.get("steps"), "time": report.get("time"),
@@ -58,7 +58,7 @@ class Sweep(List[Point]):
         return [point for point in self if point.error]
 
     def rows(self) -> List[Dict[str, Any]]:
-        """A dictionary for each point, as `Point.row` describes."""
+        """One dictionary for each point, as described at `Point.row`."""
         return [point.row() for point in self]
 
     def to_pandas(self) -> Any:
@@ -70,9 +70,10 @@ class Sweep(List[Point]):
 def sweep(scene: Path, values: Mapping[str, Sequence[Any]], *, jobs: Optional[int] = None, ranks: int = 1,
           threads: int = 1, output: Optional[Path] = None, sets: Optional[Mapping[str, Any]] = None,
           **options: Any) -> Sweep:
-    """Runs a scene with every combination of `values`, path -> values, `jobs` at a time (if None, as many as the cores
-    allow). `sets` are overrides for all. Archives go to `output`/000, 001, …, else to folders that go away with the
-    sweep. A run that fails is a point with an error; the others go on. `options` are those of `run`."""
+    """Runs a scene with every combination of `values`, path -> values, `jobs` at a time (by default as many as the
+    cores allow). `sets` are overrides for all runs. Archives are written to `output`/000, 001, …, by default to folders
+    that are deleted with the sweep. A failed run becomes a point with an error; the others continue. `options` are
+    those of `run`."""
     combinations = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
     common = dict(sets or {})
 

@@ -78,7 +78,7 @@ class Tracks:
         return found
 
     def to_pandas(self) -> Any:
-        """A DataFrame with a row for each time and particle, by (time, id)."""
+        """A DataFrame with a row for each time and particle, indexed by (time, id)."""
         from tushar import frames
         return frames.of_tracks(self)
 
@@ -89,7 +89,7 @@ class Tracks:
 
 
 def rows_of(data: h5py.Dataset, rows: Values) -> Values:
-    """Rows of a dataset, in any order, without reading distant ones."""
+    """Reads rows of a dataset, in any order, without reading distant ones."""
     if len(rows) <= FEW:
         return np.stack([data[int(row)] for row in rows])
     first = int(rows.min())

@@ -41,7 +41,7 @@ class View:
         return dataclasses.replace(self, planes=planes)
 
     def limits(self, label: str) -> Range:
-        """The smallest and the largest value to show for a label; None if they follow from the values."""
+        """The smallest and the largest value shown for a label; None if they follow from the values."""
         return self.range or self.ranges.get(label, (None, None))
 
 
@@ -70,8 +70,8 @@ class Quantity:
         return self.variable.components == 1 or self.component is not None
 
     def scalar(self, values: Values, axis: Optional[int] = None) -> Values:
-        """The requested component; for a vector on a line along an axis, by default the component along it; otherwise
-        the magnitude."""
+        """The requested component; by default, for a vector on a line along an axis, the component along this axis,
+        otherwise the magnitude."""
         if self.variable.components == 1:
             return values
         if self.component is not None:
@@ -82,7 +82,7 @@ class Quantity:
 
 
 class Output:
-    """An output as a view shows it. `notes` state what was chosen or left out."""
+    """An output as shown by a view. `notes` describe choices and omissions."""
 
     def __init__(self, snapshot: Snapshot, view: View) -> None:
         self.snapshot, self.view, self.grid = snapshot, view, snapshot.grid
@@ -101,7 +101,7 @@ class Output:
         self.other = self._counterpart()
 
     def _counterpart(self) -> Optional[Snapshot]:
-        """The output of the other archive at the nearest time."""
+        """The output of the other archive that is nearest in time."""
         if not self.view.other:
             return None
         other = self.view.other.at(self.snapshot.time)
@@ -135,7 +135,7 @@ class Output:
         return x[kept], quantity.scalar(values[kept], axis)
 
     def _others(self, material: str) -> Particles:
-        """The particles that are subtracted."""
+        """The particles to be subtracted."""
         assert self.other
         if material not in self.other.materials:
             raise ArchiveError(f"'{self.other.archive.folder}' has no particles of '{material}', so there is no "
@@ -143,7 +143,7 @@ class Output:
         return self.other.particles(material)
 
     def owners(self, quantity: Quantity) -> List[Optional[str]]:
-        """The materials whose field is shown; None for a field of no material."""
+        """The materials whose field is shown; None for a field that does not belong to a material."""
         materials = quantity.variable.materials
         if self.view.material and materials:
             return [check_name("material", self.view.material, materials)]
@@ -163,7 +163,7 @@ class Output:
         return quantity.scalar(np.asarray(values), axis)
 
     def place(self, centring: str, slices: Optional[Dict[int, float]] = None) -> Tuple[Any, ...]:
-        """The key to the nearest row of cells or nodes in each slice; an axis not in use has one row."""
+        """The key of the row of cells or nodes nearest to each slice; an axis that is not in use has one row."""
         cuts = self.view.slices if slices is None else slices
         rows: List[Any] = [slice(None) if axis in self.grid.axes else 0 for axis in range(3)]
         for cut, place in cuts.items():
@@ -181,7 +181,7 @@ class Output:
         return middles[first], levels[first], number[first]
 
     def boxes(self, slices: Optional[Dict[int, float]] = None) -> List[Tuple[Values, Values]]:
-        """The corners [m] of those boxes of a refined grid that slices cut."""
+        """The corners [m] of the boxes of a refined grid that slices cut."""
         cuts = self.view.slices if slices is None else slices
         rows = {cut: self.grid.nearest("cell", cut, place) for cut, place in cuts.items()}
         found = []
@@ -223,7 +223,7 @@ def shape_of(grid: Grid) -> str:
 
 
 def _minus(own: Particles, other: Particles, name: str) -> Tuple[Values, Values]:
-    """Positions and differences of the particles that both have: by id, or, without ids, one by one."""
+    """Positions and differences of the particles that both outputs have: matched by id or, without ids, one by one."""
     x, here, there = own["p.x"].values, own[name].values, other[name].values
     if ID in own.variables and ID in other.variables:
         _, mine, theirs = np.intersect1d(own.ids.values, other.ids.values, return_indices=True)

@@ -7,23 +7,23 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The velocity modes of each particle of a batch, as in Modes.
+/// The velocity modes (see Modes) of the particles of a batch, one particle per lane.
 template <int D>
 using LanesModes = LanesMatrix<D, (1 << D) - 1>;
 
-/// Particles in lanes, at most one from each cell: lane k belongs to the k-th cell of a row that begins at `start`, so
-/// the values that the particles read from the grid or add to it are also consecutive. Lanes not in use repeat another
-/// particle.
+/// Particles in lanes, at most one from each cell: lane k belongs to the k-th cell of a row that begins at `start`. So
+/// the values that the particles read from the grid or add to it are consecutive in memory. Lanes not in use repeat
+/// another particle.
 template <int D>
 struct Batch {
   Index<D> start;                    ///< cell of the first lane
-  LaneIntegers place;                ///< of the particles
-  std::array<LaneIntegers, D> cell;  ///< of the particles
+  LaneIntegers place;                ///< indices of the particles
+  std::array<LaneIntegers, D> cell;  ///< cells of the particles
   Lanes::Mask used;
   bool isFull;        ///< whether all lanes are in use
   bool isContiguous;  ///< whether the particles are consecutive in memory
 
-  /// Takes the particles at `places`; lanes where `takes` is 0 have none.
+  /// Constructs a batch of the particles with the indices `places`; lanes where `takes` is 0 are not in use.
   Batch(const Index<D>& first, const LaneIntegers& places, const LaneIntegers& takes)
       : start(first), place(places), used(__builtin_convertvector(takes, Lanes::Mask)), isFull(all(used)) {
     for (std::size_t d = 0; d < D; ++d) cell[d] = LaneIntegers{} + first[static_cast<int>(d)];
@@ -32,9 +32,9 @@ struct Batch {
     const LaneIntegers next = place == place[0] + ascending();
     isContiguous = isFull && all(__builtin_convertvector(next, Lanes::Mask));
   }
-  /// These values in the lanes in use, 0 in the others.
+  /// The given values in the lanes in use, 0 in the others.
   Lanes only(const Lanes& values) const { return isFull ? values : select(used, values, 0); }
-  /// Whether something holds in every lane in use.
+  /// Whether a condition holds in every lane in use.
   bool holds(const Lanes::Mask& mask) const { return all(mask | ~used); }
 
  private:
@@ -43,7 +43,7 @@ struct Batch {
     for (int lane = 0; lane < Lanes::count; ++lane) lanes[lane] = lane;
     return lanes;
   }
-  /// Repeats the first particle in the lanes not in use.
+  /// Copies the first particle into the lanes not in use.
   void repeat() {
     int some = 0;
     while (used[some] == 0) ++some;
@@ -53,7 +53,7 @@ struct Batch {
   }
 };
 
-/// Calls `visit(batch)` for batches that hold each particle of the cells of a box once.
+/// Calls `visit(batch)` for batches that contain each particle of the cells of a box once.
 template <int D, class T, class Visit>
 [[gnu::always_inline]] inline void forEachBatch(const Box& box, const ParticleView<T>& view, Visit&& visit) {
   forEachRow<D>(box, [&](Index<D> cell, int count) {
@@ -75,8 +75,8 @@ template <int D, class T, class Visit>
   });
 }
 
-/// The values of a variable of the batch's particles, `numbers` consecutive ones for each; `at(place)` points to the
-/// first.
+/// Loads a variable that has `numbers` consecutive numbers per particle, for the particles of a batch. `at(place)`
+/// points to the first number of a particle.
 template <int numbers, int D, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> loadColumns(const Batch<D>& batch, At&& at) {
   if constexpr (numbers <= Lanes::count)
@@ -94,7 +94,7 @@ template <int D, int Rows, int Columns>
   return matrixOf<Rows, Columns>(loadColumns<Rows * Columns>(batch, [&](int p) { return view[p].data(); }));
 }
 
-/// The reverse of loadColumns.
+/// Stores a variable of the particles of a batch: the inverse of loadColumns.
 template <int D, std::size_t numbers, class At>
 [[gnu::always_inline]] inline void storeColumns(const std::array<Lanes, numbers>& columns, const Batch<D>& batch,
                                                 At&& at) {

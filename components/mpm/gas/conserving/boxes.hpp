@@ -10,14 +10,14 @@ namespace tushar::mpm::gas::conserving {
 template <int D>
 struct GasBox {
   ParticleId id;
-  Vec<D> x, edges;                      ///< centre and edge lengths, m
-  double mass;                          ///< kg
-  Vec<D> velocity;                      ///< mean, m/s
+  Vec<D> x, edges;                      ///< centre and edge lengths [m]
+  double mass;                          ///< mass [kg]
+  Vec<D> velocity;                      ///< mean velocity [m/s]
   Modes<D> modes;                       ///< modes of the motion about the mean
-  double internalEnergy, affineEnergy;  ///< J/kg
+  double internalEnergy, affineEnergy;  ///< internal energy and affine energy [J/kg]
 };
 
-/// The particles that redistribute reads.
+/// Views of the particles that redistribute reads.
 template <int D>
 struct OldBoxes {
   ParticleView<const ParticleId> ids;
@@ -62,7 +62,7 @@ struct NewBoxes {
             .affineEnergy = take(creates(p::affineEnergy))};
   }
 
-  /// Adds a particle in a cell.
+  /// Adds a particle to a cell.
   void add(ParticleMaker& maker, const Index<D>& cell, const GasBox<D>& box) const {
     maker.add(cell, box.id);
     x.push_back(box.x);

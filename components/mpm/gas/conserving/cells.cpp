@@ -12,13 +12,13 @@ namespace {
 /// Harmonic mean; 0 if the signs differ.
 Lanes harmonicMean(Lanes a, Lanes b) { return select(a * b > 0, 2 * a * b / (a + b), 0); }
 
-/// 0 if a velocity difference is below .05 c, 1 from .15 c on.
+/// The shock sensor: 0 if a velocity difference is below .05 c, 1 from .15 c on.
 Lanes sensor(Lanes difference, Lanes soundSpeed) {
   return select(soundSpeed > 0, clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0), 1);
 }
 
-/// The velocity differences over cells, along each axis, and their sum Delta. Beyond the rim of the grid a cell counts
-/// as its own neighbour.
+/// Computes the velocity differences over cells along each axis, and their sum Delta. A cell at the rim of the grid
+/// counts as its own neighbour beyond the rim.
 template <int D>
 class Differences : public GridFields<D, D + 1> {
  public:
@@ -43,7 +43,7 @@ class Differences : public GridFields<D, D + 1> {
   }
 };
 
-/// The compression of cells and their neighbours.
+/// Computes the compression of cells and their neighbours.
 template <int D>
 Compression compressionOf(const Differences<D>& differences, const Index<D>& first) {
   constexpr std::size_t total = Differences<D>::total;

@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// dv_j/dx_k in the centre of each cell, from its nodes [1/s].
+/// Computes dv_j/dx_k at the centre of each cell from the velocities of its nodes [1/s].
 template <int D>
 void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<D>> velocity,
                              CellView<Tensor<D>> gradient) {
@@ -25,44 +25,45 @@ void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<
   });
 }
 
-/// Pressure, artificial viscosity and shock sensor of cells, one per lane.
+/// Pressure, artificial viscosity and shock sensor of cells; one cell per lane.
 struct CellState {
   Lanes pressure = 0, viscosity = 0, shock = 1;
 };
 
-/// The compression of cells and their neighbours along the axes. The velocity difference over a cell along an axis is
-/// the derivative times the least cell width h; Delta is the sum of these differences over the axes [m/s].
+/// The compression of cells and of their neighbours along the axes. The velocity difference across a cell along an axis
+/// d is dv_d/dx_d times the smallest cell width h; Delta is the sum of these differences over the axes [m/s].
 struct Compression {
   Lanes difference = 0;  ///< Delta of the cell
   Lanes smooth = 0;      ///< J_0: Delta minus van Leer's harmonic means with the differences of neighbours
   Lanes nearby = 0;      ///< largest -Delta of the neighbours
 };
 
-/// q under compression, Delta < 0:  rho |Delta| (C_q |Delta| + C_l c).
+/// The artificial viscosity q under compression, Delta < 0:  rho |Delta| (C_q |Delta| + C_l c).
 CellState shockViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, Lanes difference, const Viscosity& viscosity);
 
-/// q = rho |J| (C_q |J| + C_l c) where the gas is compressed, with J = Delta at shocks and J = J_0 where the flow is
-/// smooth; s = min(1, 10 max(0, -Delta / c - .05)) blends the two. Where the gas expands next to a compressed cell, q
-/// is negative, at least -0.4 p: this removes the overshoot behind a shock.
+/// The artificial viscosity q = rho |J| (C_q |J| + C_l c) where the gas is compressed, with J = Delta at shocks and J =
+/// J_0 where the flow is smooth; s = min(1, 10 max(0, -Delta / c - .05)) blends the two. Where the gas expands next to
+/// a compressed cell, q is negative, at least -0.4 p: this removes the overshoot behind a shock.
 CellState smoothViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, const Compression& compression,
                           const Viscosity& viscosity);
 
-/// p = (gamma - 1) IE_c / V_c, q by shockViscosity (apic) or smoothViscosity (affineFlip), and the sensor of shocks.
-/// Beyond the rim of the grid a cell counts as its own neighbour.
+/// Computes p = (gamma - 1) IE_c / V_c, q by shockViscosity (apic) or smoothViscosity (affineFlip), and the sensor of
+/// shocks. A cell at the rim of the grid counts as its own neighbour beyond the rim.
 template <int D, class Scheme>
 void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, CellView<const double> mass,
                      CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,
                      CellView<double> pressure, CellView<double> artificial, CellView<double> shock);
 
-/// The stress on the faces of a cell [Pa]. apic: p + q. affineFlip: P cof(I + dt/2 grad v), on the faces where they are
-/// half a step later, with P = p clamp(1 - gamma dt div v / 2, .3, 2) + q, the pressure half a step later.
+/// Computes the stress on the faces of a cell [Pa]. apic: p + q. affineFlip: P cof(I + dt/2 grad v), which refers to
+/// the positions of the faces half a step later. P = p clamp(1 - gamma dt div v / 2, .3, 2) + q is the pressure at that
+/// time.
 template <int D, class Scheme>
 void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pressure,
                    CellView<const double> artificial, CellView<const Tensor<D>> gradient, double dt,
                    CellView<Tensor<D>> stress);
 
-/// a_i = sum over the cells c around node i of V_c T_c grad S_i / m_i; 0 across symmetry planes and at nodes without
-/// mass.
+/// Computes a_i = sum over the cells c around node i of V_c T_c grad S_i / m_i; a_i is 0 at nodes without mass, and has
+/// no component normal to symmetry planes.
 template <int D>
 void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress, NodeView<const double> mass,
                          NodeView<Vec<D>> acceleration) {
@@ -81,7 +82,7 @@ void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D
   stopAtSymmetryPlanes<D>(patch, acceleration);
 }
 
-/// beta_i, the largest shock sensor of the cells around a node.
+/// Computes beta_i, the largest shock sensor of the cells around a node.
 template <int D>
 void computeRelaxation(const Patch& patch, const Gas&, CellView<const double> shock, NodeView<double> relaxation) {
   forEach<D>(patch.nodes(), [&](const Index<D>& node) {
@@ -94,7 +95,7 @@ void computeRelaxation(const Patch& patch, const Gas&, CellView<const double> sh
   });
 }
 
-/// -dt V_c T_c : grad(v + dt a / 2) [J], the work of the forces of computeAcceleration on the gas in a cell.
+/// Computes -dt V_c T_c : grad(v + dt a / 2) [J], the work of the forces of computeAcceleration on the gas in a cell.
 template <int D>
 double workOnCell(const Level& level, const Tensor<D>& stress, const NodeView<const Vec<D>>& velocity,
                   const NodeView<const Vec<D>>& acceleration, double dt, const Index<D>& cell) {
@@ -105,7 +106,7 @@ double workOnCell(const Level& level, const Tensor<D>& stress, const NodeView<co
   return -dt * level.cellVolume() * power;
 }
 
-/// f_c = workOnCell / IE_c.
+/// Computes f_c = workOnCell / IE_c.
 template <int D>
 void computeWork(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress,
                  CellView<const double> internalEnergy, NodeView<const Vec<D>> velocity,

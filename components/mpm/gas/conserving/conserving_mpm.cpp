@@ -16,8 +16,8 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// The accesses with which a group reads its labels: at the start of the step, or as computed by an earlier task of the
-/// list.
+/// The ways in which a group reads its labels: the values at the start of the step, or those computed by an earlier
+/// task of the list.
 constexpr auto atStart = [](const auto& label) { return requiresOld(label); };
 constexpr auto asComputed = [](const auto& label) { return requiresNew(label); };
 
@@ -45,7 +45,7 @@ void ConservingMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
                    computes(remapCount));
 }
 
-/// A step: forces and work on the grid, (E1)-(E3) for the particles, and the new state of the grid.
+/// One step: forces and work on the grid, (E1)-(E3) for the particles, and the new state of the grid.
 template <int D>
 void ConservingMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (method_.transfer == Transfer::apic)

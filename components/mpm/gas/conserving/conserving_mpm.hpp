@@ -8,14 +8,15 @@ namespace tushar::mpm::gas::conserving {
 /// A particle method for gas in D dimensions that conserves mass, momentum and total energy to round-off and keeps
 /// densities and energies positive.
 ///
-/// Particles are boxes of constant mass that tile the gas, so that no cell empties. A particle carries a multilinear
-/// velocity field (its mean and its modes), internal energy e, and the kinetic energy K_A of the motion about the mean,
-/// as in the affine particle-in-cell method of Jiang et al., ACM Trans. Graph. 34 (2015) 51. It touches the grid with
-/// its whole box, as in GIMP, Bardenhagen & Kober, CMES 5 (2004) 477: w_i is the mean of the shape function of node i
-/// over the box, o_c the share of the box in cell c (footprint.hpp).
+/// Particles are boxes of constant mass that tile the gas, so no cell becomes empty. A particle carries a multilinear
+/// velocity field (its mean and its modes), the internal energy e, and the kinetic energy K_A of the motion about the
+/// mean, as in the affine particle-in-cell method of Jiang et al., ACM Trans. Graph. 34 (2015) 51. It interacts with
+/// the grid over its whole box, as in GIMP, Bardenhagen & Kober, CMES 5 (2004) 477: w_i is the mean of the shape
+/// function of node i over the box, o_c the fraction of the box in cell c (footprint.hpp).
 ///
-/// A step takes the grid from the state at its start to the accelerations a_i of the nodes, and the work f_c on the
-/// gas in each cell by exactly these forces (cells.hpp). Then particles get from the grid (transfer.hpp)
+/// From the state of the grid at the start, a step computes the forces and accelerations a_i of the nodes, and the work
+/// f_c that exactly these forces do on the gas in each cell (cells.hpp). Then particles get from the grid
+/// (transfer.hpp)
 ///   (E1) new velocity modes: moments of the nodal velocities over the box,
 ///   (E2) new K_A: the kinetic energy of the motion about the mean,
 ///   (E3) new e: e (1 + sum_c o_c f_c), and all the kinetic energy that (E1) and (E2) lose.
@@ -39,7 +40,7 @@ class ConservingMpm : public GasMethod<ConservingGasDynamics> {
   void scheduleStep(TaskList& tasks) const;
   template <class Scheme>
   void scheduleComputePressure(TaskList& tasks) const;
-  /// Adds pressure and signal speeds of a mixture of gases, which share pressure and velocity.
+  /// Adds tasks for the pressure and signal speeds of a mixture of gases, which share pressure and velocity.
   void scheduleMixtureState(TaskList& tasks) const;
   void scheduleRedistribute(TaskList& tasks) const;
   void scheduleGridState(TaskList& tasks, bool isStart = false) const;

@@ -17,12 +17,12 @@ const GasObject& objectAt(const Gas& gas, const Vec3& point) {
   return gas.objects.front();
 }
 
-/// Integrals over a box.
+/// Integrals of the state of a body over a box.
 template <int D>
 struct BoxContents {
   double mass = 0, energy = 0;
   Vec<D> momentum = Vec<D>::Zero();
-  Modes<D> moments = Modes<D>::Zero();  ///< column a - 1: momentum times phi_a
+  Modes<D> moments = Modes<D>::Zero();  ///< moments of the momentum: column a - 1 contains momentum times phi_a
 
   BoxContents& operator+=(const BoxContents& other) {
     mass += other.mass;
@@ -51,7 +51,7 @@ BoxContents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& o
   return held;
 }
 
-/// Sum of `held(offset, volume)` over the Gauss-Legendre points, 3 per axis, of a box; the same for a mirrored one.
+/// Sum of `held(offset, volume)` over the Gauss-Legendre points of a box, 3 per axis; the same bits for a mirrored box.
 template <int D, class Held>
 BoxContents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
                              int axis = 0) {
@@ -66,7 +66,7 @@ BoxContents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& hel
   return sum;
 }
 
-/// Integrals over a box about `x`.
+/// Integrates the state of a body over the box with centre `x`.
 template <int D>
 BoxContents<D> integrate(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
                          const Vec<D>& edges) {
@@ -75,9 +75,9 @@ BoxContents<D> integrate(const Level& level, const Gas& gas, const GasObject& ob
   });
 }
 
-/// Refuses a stiffened gas that does not fill the grid, as it exerts p + p_inf on its surroundings. Throws InputError
-/// where nothing balances it: on a grid with a free side, and, if it is the only gas, where `boxes` leave a part of the
-/// patch empty.
+/// Throws InputError if a stiffened gas does not fill the grid, because nothing would then balance the pressure p +
+/// p_inf that it exerts: if a side of the grid is free or, with only one gas, if `boxes` leave a part of the patch
+/// empty.
 template <int D>
 void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& boxes) {
   if (gas.pInfinity == 0) return;

@@ -5,9 +5,10 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Boxes that tile each cell inside a body, `res` along each axis; ids as in createParticles. Mass, momentum, the modes
-/// of velocity and total energy are integrals of the body's state over the box (Gauss-Legendre, 3 points per axis,
-/// unless the state is uniform); the kinetic energy of motion that modes cannot hold counts as internal energy.
+/// Creates boxes that tile each cell inside a body, with `res` boxes along each axis and the same ids as in
+/// createParticles. Mass, momentum, velocity modes and total energy are integrals of the body's state over the box
+/// (Gauss-Legendre, 3 points per axis, unless the state is uniform); kinetic energy that the modes cannot represent
+/// becomes internal energy.
 template <int D>
 void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, const NewBoxes<D>& boxes);
 

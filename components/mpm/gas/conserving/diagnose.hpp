@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Adds to a Sum in one lane for each cell of a part of a row.
+/// Adds values to a Sum, with one lane for each cell in a part of a row.
 class LanesSum {
  public:
   explicit LanesSum(Sum& sum) : sum_(&sum) {}
@@ -27,7 +27,7 @@ class LanesSum {
   Sum* sum_;
 };
 
-/// Kinetic (including the motion about the mean), internal and total energy of all particles [J].
+/// Computes the kinetic (including the motion about the mean), internal and total energy of all particles [J].
 template <int D>
 void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy, Sum& kinetic,
@@ -47,7 +47,7 @@ void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, 
   });
 }
 
-/// Cross-section of the grid: its extent along the axes that the scene does not use, m^(3-D).
+/// Cross-section of the grid, the product of its extents along the axes that the scene does not use [m^(3-D)].
 template <int D>
 double crossSection(const Level& level) {
   double area = level.cellVolume();
@@ -55,7 +55,8 @@ double crossSection(const Level& level) {
   return area;
 }
 
-/// V = the product of the edges and the cross-section of the grid, rho = m / V, p of the gas.
+/// Computes the volume V of each particle, which is the product of its edges and of the grid's cross-section, the
+/// density m / V and the pressure.
 template <int D>
 void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const double> mass,
                     ParticleView<const Vec<D>> edges, ParticleView<const double> internalEnergy,
@@ -68,7 +69,8 @@ void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const doubl
   }
 }
 
-/// Momentum divided by mass, for the parts of particles in each cell; 0 in cells without any.
+/// Computes the mean velocity in each cell: the momentum of the parts of particles in it, divided by their mass; 0 in
+/// empty cells.
 template <int D>
 void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
                          ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
@@ -99,14 +101,14 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
   });
 }
 
-/// M_c / V_c [kg/m³].
+/// Computes the density M_c / V_c [kg/m³].
 template <int D>
 void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> mass, CellView<double> density) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { density[cell] = mass[cell] / patch.level().cellVolume(); });
 }
 
-/// Errors relative to exact cell means, of M_c / V_c, of momentum divided by mass, and of the pressure and internal
-/// energy that follow from M_c / V_c and IE_c / M_c.
+/// Computes errors relative to exact cell means: of M_c / V_c, of momentum divided by mass, and of the pressure and
+/// internal energy that follow from M_c / V_c and IE_c / M_c.
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, CellView<const double> mass, CellView<const Vec<D>> velocity,

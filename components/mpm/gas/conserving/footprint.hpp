@@ -9,29 +9,30 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The cells and nodes of a line that intervals touch, one interval per lane.
+/// The cells and nodes of a line that intervals overlap, one interval per lane.
 ///
-/// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the shares
-/// of the interval that lie in each cell. An end nearer to a node than 1e-12 h is moved onto it. Nodes and cells that
-/// an interval does not reach have weight and part 0; what lies beyond `Overhang` cells counts to the outermost cell.
+/// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the
+/// fractions of the interval in each cell. An end nearer to a node than 1e-12 h is moved onto it. Nodes and cells
+/// outside an interval have weight and part 0; anything beyond `Overhang` cells is assigned to the outermost cell.
 ///
-/// All distances are measured from the centre of the cell that holds the centre, so that the mirror image of an
-/// interval has the mirrored numbers, to the bit.
+/// All distances are measured from the centre of the cell that contains the interval's centre, so that the mirror image
+/// of an interval has bitwise mirrored values.
 template <int Overhang>
 struct Span {
   static constexpr int most = 2 * Overhang + 1;  ///< largest number of cells overlapped in one batch
 
-  LaneIntegers first;                  ///< cell, and node below it
-  int below = 0;                       ///< number of cells below that of the centre that some interval overlaps
-  int cells = 1;                       ///< number of cells that some interval overlaps
-  std::array<Lanes, most> part;        ///< parts of the interval by cell; they sum to 1
-  std::array<Lanes, most + 1> weight;  ///< weights by node; they sum to 1
-  std::array<Lanes, most + 1> arm;     ///< distances of the nodes from the centre, m
-  std::array<Lanes, most + 1> atLower, atUpper;  ///< weights of nodes in the values at the ends
-  Lanes inertia;                                 ///< sum of weight times arm², m²
-  Lanes lower, upper;                            ///< ends, m
+  LaneIntegers first;                  ///< index of the first cell, and of the node below it
+  int below = 0;                       ///< number of overlapped cells below that of the centre, over all intervals
+  int cells = 1;                       ///< number of overlapped cells, over all intervals
+  std::array<Lanes, most> part;        ///< fractions of the interval in each cell; their sum is 1
+  std::array<Lanes, most + 1> weight;  ///< weights of the nodes; their sum is 1
+  std::array<Lanes, most + 1> arm;     ///< distances of the nodes from the centre [m]
+  std::array<Lanes, most + 1> atLower, atUpper;  ///< weights of the nodes in the values at the ends
+  Lanes inertia;                                 ///< sum of weight times arm² [m²]
+  Lanes lower, upper;                            ///< ends of the interval [m]
 
-  /// Intervals along kernel axis `d`; `cell` is that of the centre. They are cut off at the boundary of the grid.
+  /// Constructs intervals along kernel axis `d`; `cell` is the cell of the centre. They are cut off at the boundary of
+  /// the grid.
   Span(const Level& level, int d, const LaneIntegers& cell, const Lanes& centre, const Lanes& length) {
     const double h = level.spacing(d), inverse = level.inverseSpacing(d), last = level.cells().upper[d] - 1;
     const Lanes number = widen(cell), origin = middleOf(level, d) + h * fromMiddle(level, d, number);
@@ -54,13 +55,13 @@ struct Span {
 
   int nodes() const { return cells + 1; }
   Lanes length() const { return upper - lower; }
-  /// Ends and middle of the part in the k-th cell, m.
+  /// Ends and middle of the interval's part in the k-th cell [m].
   Lanes lowerOf(int k) const { return max(lower, centre() + arm[k]); }
   Lanes upperOf(int k) const { return min(upper, centre() + arm[k + 1]); }
   Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
 
-  /// Sum over the nodes; `add(k, sum)` adds the term of node k. Each side of the middle is summed apart, from the
-  /// inside out, so that the mirror image has the same sum.
+  /// Sum over the nodes; `add(k, sum)` adds the term of node k. The nodes on either side of the middle are summed
+  /// separately, from the inside out, so that the mirror image has the same sum.
   template <class Sum, class Add>
   [[gnu::always_inline]] Sum sumOverNodes(Add&& add) const {
     Sum lowerSide{}, upperSide{};
@@ -69,7 +70,7 @@ struct Span {
     lowerSide += upperSide;
     return lowerSide;
   }
-  /// Sum over the cells, in the mirror-symmetric order of sumOverNodes; that of the centre is added last.
+  /// Sum over the cells, in the mirror-symmetric order of sumOverNodes; the term of the centre's cell is added last.
   template <class Add>
   [[gnu::always_inline]] Lanes sumOverCells(Add&& add) const {
     Lanes lowerSide = 0, upperSide = 0;
@@ -86,7 +87,8 @@ struct Span {
     const Lanes node = nearbyint(x - 0.5) + 0.5;
     return select(abs(x - node) < 1e-12, node, x);
   }
-  /// Computes parts and weights of the interval from `from` to `to`, in cells from the middle of its centre's cell.
+  /// Computes parts and weights of the interval from `from` to `to`, measured in cells from the middle of the cell that
+  /// contains the interval's centre.
   void distribute(const Lanes& from, const Lanes& to) {
     const Lanes scale = 1 / (to - from);
     Lanes start = -0.5 - below, end = start, carried = 0;
@@ -110,7 +112,7 @@ struct Span {
     atLower[last] = (start - edge) + 1;
     atUpper[last] = (end - edge) + 1;
   }
-  /// `offset` is the distance of the cell's centre from that of the interval.
+  /// Computes the arms; `offset` is the distance of the cell's centre from that of the interval.
   void measureArms(const Lanes& offset, double h) {
     inertia = sumOverNodes<Lanes>([&](int k, Lanes& sum) {
       const std::size_t at = k;
@@ -120,21 +122,21 @@ struct Span {
   }
 };
 
-/// The cells and nodes that boxes touch, one box per lane: the product of their spans.
+/// The cells and nodes that boxes overlap, one box per lane: the product of their spans along the axes.
 template <int D>
 struct Footprint {
-  /// Number of cells by which a box may extend beyond the cell of its centre: boxes are shorter than 2 h (in one
-  /// dimension, than 3 h).
+  /// Number of cells by which a box may extend beyond the cell of its centre: boxes are shorter than 2 h, or 3 h in one
+  /// dimension.
   static constexpr int overhang = D == 1 ? 2 : 1;
-  /// Layers of cells around a patch whose particles may touch its nodes.
+  /// Number of layers of cells around a patch whose particles may contribute to the nodes of the patch.
   static constexpr int reach = overhang + 1;
-  /// Cells along an axis that boxes of one batch may overlap.
+  /// Largest number of cells along an axis that the boxes of one batch overlap.
   static constexpr int most = Span<overhang>::most;
-  /// Upper limit of the length of a box, in cells.
+  /// Upper limit on the length of a box, in cells.
   static constexpr double longest = D == 1 ? 3 : 2;
 
   std::array<Span<overhang>, D> along;
-  Index<D> start;  ///< the cell of the first lane
+  Index<D> start;  ///< cell of the first lane
 
   Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges)
       : Footprint(level, batch, centre, edges, std::make_index_sequence<D>()) {}
@@ -145,14 +147,15 @@ struct Footprint {
     return all;
   }
 
-  /// The first cell of the first lane, which has the number of the node below it. Those of the other lanes follow.
+  /// Index of the lowest cell that the box of the first lane overlaps, and of the node below this cell. The indices of
+  /// each further lane are greater by one.
   Index<D> first() const {
     Index<D> first = start;
     for (std::size_t d = 0; d < D; ++d) first[static_cast<int>(d)] -= along[d].below;
     return first;
   }
 
-  /// Sum of `value(k, part)` over the cells k of the footprint; the same for the mirror image.
+  /// Sum of `value(k, part)` over the cells k of the footprint; same bits for the mirror image.
   template <class Value>
   Lanes sumOverParts(Value&& value) const {
     Index<D> k;
@@ -164,17 +167,18 @@ struct Footprint {
     Index<D> k;
     parts<D - 1>(k, Lanes(1), visit);
   }
-  /// Coefficients of a multilinear field about the centre, sum of f_a phi_a; `Axis` is the last one it depends on.
+  /// Coefficients f_a of a multilinear field about the centre of a box, the sum of f_a phi_a (see Modes). `Axis` is the
+  /// last axis on which the field depends.
   template <int Axis>
   using Field = std::array<LanesVec<D>, (1 << (Axis + 1))>;
 
-  /// Calls `visit(k, w, f)` for each node k of the footprint, with its weights and the fields there.
+  /// Calls `visit(k, w, f)` for each node k of the footprint, with its weights w and the field values f at the node.
   template <class Visit>
   void forEachWeight(const Field<D - 1>& field, Visit&& visit) const {
     Index<D> k;
     weights<D - 1>(k, Lanes(1), field, visit);
   }
-  /// The field on a plane perpendicular to its last axis, at the distance `arm` from the centre.
+  /// The field in a plane perpendicular to its last axis, at the distance `arm` from the centre.
   template <int Axis>
   static Field<Axis - 1> slice(const Field<Axis>& field, const Lanes& arm) {
     constexpr std::size_t half = std::size_t{1} << Axis;
@@ -183,7 +187,8 @@ struct Footprint {
     return result;
   }
 
-  /// Nodes or cells of a footprint are numbered with the first axis fastest.
+  /// Distance between the indices of neighbours along an axis: nodes or cells of a footprint are numbered with the
+  /// first axis fastest.
   static constexpr int stride(int axis) { return axis == 0 ? 1 : (most + 1) * stride(axis - 1); }
   static constexpr std::size_t places = D == 1   ? most + 1
                                         : D == 2 ? (most + 1) * (most + 1)

@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// N fields at the nodes or cells that the particles of a box of cells may touch, initially 0. Each field is contiguous
-/// in memory, and wide enough for any footprint, so that no index needs a bounds check.
+/// N fields at the nodes or cells that the particles of a box of cells may overlap, initially 0. Each field is
+/// contiguous in memory, and wide enough for any footprint, so that no index needs a bounds check.
 template <int D, std::size_t N>
 class GridFields {
  public:
@@ -25,11 +25,11 @@ class GridFields {
     forEach<D>(from.box(), [&](const Index<D>& index) { at(field, index) = from[index]; });
   }
 
-  /// A field at a node or cell and its neighbours along the first axis.
+  /// Reads a field at a node or cell and its neighbours along the first axis.
   Lanes readRow(std::size_t field, const Index<D>& index) const { return Lanes::at(&at(field, index)); }
 
  protected:
-  /// Access to the memory, for fields that are sums.
+  /// Pointer to the values of a field, for derived classes that add to them.
   double* values(std::size_t field) { return values_.data() + field * size_; }
   std::size_t size() const { return size_; }
   int stride(int axis) const { return stride_[axis]; }

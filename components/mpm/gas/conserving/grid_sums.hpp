@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// A sum and the rounding error of its additions.
+/// A sum and the accumulated rounding error of its additions.
 template <class Number>
 struct CarefulSum {
   Number sum, lost;
@@ -15,9 +15,9 @@ struct CarefulSum {
   }
 };
 
-/// N sums over particles at the nodes (More = 1) or cells (More = 0) of a box of cells. Rounding errors are summed and
-/// added at the end, so that a sum does not depend on the order of the particles, which a mirror image changes, unless
-/// it lies within about 1e-32 of the midpoint of two numbers. `finish()` completes the sums.
+/// N sums over particles at the nodes (More = 1) or cells (More = 0) of a box of cells. Rounding errors are summed,
+/// too, and `finish()` adds them to the sums. So a sum does not depend on the order of the particles, which differs in
+/// a mirror image, unless the sum lies within about 1e-32 of the midpoint of two floating-point numbers.
 template <int D, std::size_t N, int More>
 class GridSums : public GridFields<D, N> {
   using Fields = GridFields<D, N>;
@@ -27,7 +27,7 @@ class GridSums : public GridFields<D, N> {
 
   explicit GridSums(const Box& cells) : Fields(cells), lost_(N * this->size()) {}
 
-  /// Adds to the nodes or cells of the footprints of a batch, for which lanes not in use must bring 0.
+  /// Adds terms to the nodes or cells of the footprints of a batch; lanes that are not in use must contribute 0.
   void add(const Footprint<D>& footprint, const Brought& brought) {
     const std::size_t first = this->place(footprint.first());
     for (std::size_t n = 0; n < N; ++n)

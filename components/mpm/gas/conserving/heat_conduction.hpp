@@ -5,10 +5,10 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Artificial heat conduction where a shock compresses cells, against wall heating: the heat flow through the face
-/// between two cells along axis d is Q = C_h rho h max(0, -dv_d/dx_d) A (e_next - e), with the smaller of the two
-/// densities and of the two derivatives. Adds dt Q / IE_c to the work of each cell; the flow leaves one cell and enters
-/// the other. Source: W. F. Noh, J. Comput. Phys. 72 (1987) 78, section 3.
+/// Computes artificial heat conduction where a shock compresses cells, to reduce wall heating. The heat flow through
+/// the face between two cells along axis d is Q = C_h rho h max(0, -dv_d/dx_d) A (e_next - e), with the smaller density
+/// and the smaller (more negative) derivative of the two cells. Adds dt Q / IE_c to the work of each cell; the flow
+/// leaves one cell and enters the other. Source: W. F. Noh, J. Comput. Phys. 72 (1987) 78, section 3.
 template <int D>
 void conductHeat(const Patch& patch, const Gas&, double coefficient, CellView<const double> mass,
                  CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient, double dt,

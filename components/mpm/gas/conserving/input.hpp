@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The `conserving_gas_dynamics` section of `MPM`, as given in the scene. Defaults of what is missing depend on the
+/// The section `conserving_gas_dynamics` of `MPM`, as given in the scene. Defaults of missing tags depend on the
 /// transfer and the dimension.
 struct Section {
   Transfer transfer = Transfer::apic;
@@ -18,11 +18,11 @@ struct Section {
 };
 const input::Schema<Section>& sectionSchema();
 
-/// Makes the method; the module mpm_gas_conserving fills it in when it is loaded.
+/// Constructs the method; set by the module mpm_gas_conserving when it is loaded.
 extern std::unique_ptr<Component> (*makeConservingMpm)(const Level& level, const ConservingGasDynamics& method,
                                                        const std::vector<Gas>& gases);
 
-/// The method on a grid of this dimension, with defaults filled in.
+/// The method's settings on a grid of this dimension, with defaults filled in.
 ConservingGasDynamics settle(const Section& read, int dimension);
 
 }  // namespace tushar::mpm::gas::conserving

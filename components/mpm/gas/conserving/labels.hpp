@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Variables of the conserving gas method.
+/// Labels of the conserving gas method.
 namespace p {
 using namespace gas::p;
 template <int D>
@@ -47,18 +47,18 @@ inline constexpr CellLabel<double> shock{"c.shock", "1", "shock sensor, from 0 (
 template <int D>
 inline constexpr CellLabel<Tensor<D>> stress{
     "c.stress", "Pa", "pressure and viscosity on the faces, at the positions of the faces half a step later"};
-inline constexpr CellLabel<double> work{"c.work", "1", "relative change of the internal energy by compression"};
+inline constexpr CellLabel<double> work{"c.work", "1", "relative change of the internal energy due to compression"};
 inline constexpr CellLabel<double> movedMass{"c.movedMass", "kg", "mass in the cell before the remap"};
 inline constexpr CellLabel<double> movedEnergy{"c.movedEnergy", "J", "internal energy in the cell before the remap"};
 }  // namespace c
 
-/// Limits of the time step.
+/// Labels that limit the time step.
 inline constexpr ReductionLabel<Maximum> signalPastGrid{"SignalPastGrid", "m/s",
                                                         "speed of the fastest signal relative to the grid"};
 inline constexpr ReductionLabel<Maximum> signalPastGas{"SignalPastGas", "m/s",
                                                        "speed of the fastest signal relative to the gas"};
 
-/// When to remap.
+/// Labels that determine when to remap.
 inline constexpr ReductionLabel<Maximum> cellFill{
     "CellFill", "1", "largest ratio of the volume of a cell's particles to that of the cell"};
 inline constexpr ReductionLabel<Maximum> remapCount{"RemapCount", "1",

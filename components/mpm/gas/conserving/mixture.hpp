@@ -12,16 +12,16 @@ using CellViews = std::vector<CellView<T>>;
 template <class T>
 using NodeViews = std::vector<NodeView<T>>;
 
-/// Several gases in a cell, each with its volume fraction alpha, at one pressure and velocity, with the same
-/// compression. With G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per
-/// volume is p G + S. So a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G. Source:
-/// G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for G and S alone: R. Abgrall, J. Comput. Phys. 125
-/// (1996) 150.
+/// Several gases in a cell, which share pressure, velocity and compression; each has a volume fraction alpha. With G =
+/// sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per volume is p G + S. So
+/// the pressure stays uniform across a contact discontinuity, at rest or in motion, and rho c² = (p (1 + G) + S) / G.
+/// Sources: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for the use of G and S alone: R. Abgrall,
+/// J. Comput. Phys. 125 (1996) 150.
 struct Mixture {
-  double density = 0;    ///< kg/m³
-  double energy = 0;     ///< internal, J/m³
+  double density = 0;    ///< density [kg/m³]
+  double energy = 0;     ///< internal energy per volume [J/m³]
   double softness = 0;   ///< G
-  double stiffness = 0;  ///< S, J/m³
+  double stiffness = 0;  ///< stiffness S [J/m³]
 
   double pressure() const { return (energy - stiffness) / softness; }
   double soundSpeedSquared() const { return (pressure() * (1 + softness) + stiffness) / (softness * density); }
@@ -33,22 +33,22 @@ struct Mixture {
 
 /// The fields of one gas in the cells of a patch.
 struct GasInCells {
-  CellView<const double> mass;            ///< kg
-  CellView<const double> internalEnergy;  ///< J
-  CellView<const double> fill;            ///< fraction of the volume of the cell
+  CellView<const double> mass;            ///< mass of the gas in each cell [kg]
+  CellView<const double> internalEnergy;  ///< internal energy of the gas in each cell [J]
+  CellView<const double> fill;            ///< fraction of each cell's volume that the gas occupies
 
-  /// `read` is requiresOld or requiresNew, as a function of a label.
+  /// Declares that a task reads these fields; `read` is requiresOld or requiresNew, as a function of a label.
   static GasInCells from(auto& take, const auto& read) {
     return {.mass = take(read(c::mass)), .internalEnergy = take(read(c::internalEnergy)), .fill = take(read(c::fill))};
   }
 };
 
-/// The fields of all gases together in the cells of a patch.
+/// Views of all gases in the cells of a patch.
 struct Cells {
   const std::vector<Gas>& gases;
-  const std::vector<GasInCells>& held;  ///< one for each gas
+  const std::vector<GasInCells>& held;  ///< views of each gas
 
-  /// Volume of a gas divided by that of all gases in the cell.
+  /// Volume of one gas divided by the volume of all gases in the cell.
   template <class Index>
   double share(std::size_t gas, const Index& cell) const {
     double all = 0;
@@ -67,15 +67,15 @@ struct Cells {
     }
     return mixture;
   }
-  /// Whether more than one gas is in a cell.
+  /// Whether there is more than one gas in a cell.
   template <class Index>
   bool isMixed(const Index& cell) const {
     return std::count_if(held.begin(), held.end(), [&](const GasInCells& one) { return one.mass[cell] > 0; }) > 1;
   }
 };
 
-/// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box; negative at pressures below -p_inf, at
-/// which the gas ruptures.
+/// Computes epsilon = e - p_inf / rho of each particle, with rho = m / V of its box. It is negative at pressures below
+/// -p_inf, at which the gas ruptures.
 template <int D>
 void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const Vec<D>> edges,
                  ParticleView<const double> internalEnergy, ParticleView<double> heat) {
@@ -83,7 +83,7 @@ void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) heat[p] = gas.heat(mass[p] / (edges[p].prod() * area), internalEnergy[p]);
 }
 
-/// All gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, assigned to each gas.
+/// Makes all gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, assigned to each gas.
 template <int D>
 void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<double>& mass,
                 const NodeViews<Vec<D>>& velocity) {
@@ -102,7 +102,7 @@ void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<dou
   });
 }
 
-/// Throws InputError if the gases leave a part of a cell empty at the start, or overlap, since the pressure of a
+/// Throws InputError if the gases leave a part of a cell empty at the start, or overlap, because the pressure of a
 /// mixture acts on the whole grid.
 template <int D>
 void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<double>& fill) {
@@ -119,7 +119,7 @@ void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellView
   });
 }
 
-/// Assigns p of the mixture and q by shockViscosity to each gas; the sensor of shocks is 1.
+/// Assigns p of the mixture and q by shockViscosity to each gas, and 1 to the sensor of shocks.
 template <int D>
 void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, const Viscosity& viscosity,
                             const std::vector<GasInCells>& held, const CellViews<const Tensor<D>>& gradient,
@@ -140,8 +140,7 @@ void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, c
   });
 }
 
-/// The distribution of the work `done` [J] on a cell over its gases: the relative change of the internal energy of
-/// each.
+/// Distributes the work done on a cell [J] over the gases in it, as the relative change of each gas's internal energy.
 template <class Index>
 class SharedWork {
  public:
@@ -172,12 +171,13 @@ class SharedWork {
   const Index& cell_;
   double volume_, done_;
   Mixture after_;
-  double equalised_ = 0;  ///< 0: by volume; 1: at equal pressure
+  double equalised_ = 0;  ///< 0: distribution by volume; 1: at equal pressure
 };
 
-/// f of each gas in a cell, for updateParticles. Several gases have the pressure p' of the mixture afterwards:
-/// IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where this would take more
-/// than half of the energy of one gas, they share the work by volume and approach p' only until half is taken.
+/// Computes f of each gas in a cell, for updateParticles. Several gases in a cell then have the pressure p' of the
+/// mixture:
+/// IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where one gas would lose
+/// more than half of its energy, the gases share the work by volume, and approach p' only until one has lost half.
 template <int D>
 void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const Tensor<D>>& stress,
                         const std::vector<GasInCells>& held, const NodeViews<const Vec<D>>& velocity,
@@ -191,7 +191,8 @@ void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const
   });
 }
 
-/// Like measureSignals, for a mixture: |v| + c from its nodes' velocities, and signals relative to the gas.
+/// Computes the largest speeds of signals in a mixture [m/s], as measureSignals does in one gas: |v| + c with the
+/// velocities of the nodes, and the speed relative to the gas.
 template <int D>
 void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, const std::vector<GasInCells>& held,
                            const CellViews<const Tensor<D>>& gradient, const NodeViews<const Vec<D>>& velocity,
@@ -210,7 +211,7 @@ void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, co
   pastGas.add(inGas);
 }
 
-/// Errors of the means over cells, relative to exact means: density, velocity (momentum over mass), pressure and
+/// Computes errors of the cell means, relative to exact means: density, velocity (momentum over mass), pressure and
 /// internal energy of the mixture.
 template <int D>
 void measureMixtureError(const Patch& patch, const std::vector<Gas>& gases, const reference::GasReference* exact,

@@ -4,9 +4,9 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The velocity within a box, u(x) = sum over a of u_a phi_a(x), phi_a the product of (x_d - centre_d) over the axes of
-/// a: bit d of a says whether axis d is among them. Column a - 1 holds u_a; u_0, the mean, is p.velocity.
-/// Columns 0, 1, 3 are the velocity gradient [1/s]; those of several axes are the mixed modes [1/(m s), 1/(m² s)].
+/// The velocity within a box, u(x) = sum over a of u_a phi_a(x), where phi_a is the product of (x_d - centre_d) over
+/// the axes of a: axis d is among them if bit d of a is set. Column a - 1 contains u_a; u_0, the mean, is p.velocity.
+/// Columns 0, 1, 3 are the velocity gradient [1/s]; the others are the mixed modes [1/(m s), 1/(m² s)].
 template <int D>
 using Modes = Eigen::Matrix<double, D, (1 << D) - 1, Eigen::DontAlign>;
 
@@ -17,7 +17,7 @@ using Tensor = Eigen::Matrix<double, D, D, Eigen::DontAlign>;
 /// The column of the derivative along an axis.
 constexpr int gradientColumn(int axis) { return (1 << axis) - 1; }
 
-/// For each a, the product of `values` over the axes of a; the first product is empty, and 1.
+/// For each set of axes a, the product of `values` over the axes in a; the first product is empty, hence 1.
 template <class Values>
 auto productsOver(const Values& values) {
   constexpr std::size_t dimension = Values::SizeAtCompileTime;
@@ -29,8 +29,9 @@ auto productsOver(const Values& values) {
   return products;
 }
 
-/// Kinetic energy per mass of the motion about the mean, K = 1/2 sum of I_a |u_a|², I_a the product of `inertia`
-/// over the axes of a: mean squares of x_d - centre_d [m²] over the box, or over the nodes that represent it.
+/// Kinetic energy per mass of the motion about the mean, K = 1/2 sum of I_a |u_a|², where I_a is the product of
+/// `inertia` over the axes of a. `inertia` contains the mean squares of x_d - centre_d [m²] over the box, or over the
+/// nodes that represent it.
 template <int D, class Real>
 Real modalEnergy(const Eigen::Matrix<Real, D, (1 << D) - 1, Eigen::DontAlign>& modes,
                  const Eigen::Matrix<Real, D, 1, Eigen::DontAlign>& inertia) {

@@ -24,30 +24,31 @@ void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const
   }
 }
 
-/// Halves particles longer than `longestInCells` cells along an axis: children a quarter of the length L to either side
-/// of the centre with velocities v -+ L B_d / 4, whose kinetic energy is taken from K_A, then from e. A child may lie
-/// in the next cell: each patch makes the children that lie in its own cells, of its own particles and of its ghosts.
+/// Halves particles longer than `longestInCells` cells along an axis: the children lie a quarter of the length L on
+/// either side of the centre, with the velocities v -+ L B_d / 4. The kinetic energy of this relative motion is taken
+/// from K_A, then from e. A child may lie in the next cell: of the children of its own particles and of its ghosts,
+/// each patch makes those that lie in its own cells.
 template <int D>
 void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old, ParticleMaker& maker,
                const NewBoxes<D>& fresh);
 
-/// Replaces the particles by one per cell, which fills the cell; next to an empty cell, only the part that the gas
-/// fills. Mass, momentum and energy are those of the parts of particles that lie in the cell. The share of a part in
-/// the particle's mass and energy follows van Leer's limited slopes of the cells' (`mass`, `energy`); it has the
-/// particle's velocity there. The velocity gradient of a new particle is the regression over its parts, its mixed modes
-/// their mean, and the kinetic energy it cannot hold becomes heat.
+/// Replaces the particles by one per cell. The new particle fills the cell or, next to an empty cell, only the part of
+/// the cell that the gas fills. Its mass, momentum and energy are the sums over the parts of old particles in the cell.
+/// The mass and energy of a part follow van Leer's limited slopes of the cell values (`mass`, `energy`); its velocity
+/// is the particle's velocity at that point. The velocity gradient of a new particle is the regression over its parts,
+/// its mixed modes are the mean over its parts, and kinetic energy that these cannot represent becomes heat.
 template <int D>
 void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> mass, CellView<const double> energy,
            ParticleMaker& maker, const NewBoxes<D>& fresh);
 
-/// splitLong as a task.
+/// Halves long particles: the task that only calls splitLong.
 template <int D>
 void redistribute(const Patch& patch, const Gas&, ParticleMaker& maker, double longestInCells, const OldBoxes<D>& old,
                   const NewBoxes<D>& fresh) {
   splitLong<D>(patch, longestInCells, old, maker, fresh);
 }
 
-/// Calls remap in steps in which `count` is 0, splitLong in others.
+/// Calls remap in steps in which `count` is 0, and splitLong in others.
 template <int D>
 void redistributeOrRemap(const Patch& patch, const Gas&, ParticleMaker& maker, double longestInCells,
                          const OldBoxes<D>& old, CellView<const double> cellMass, CellView<const double> cellEnergy,
@@ -58,14 +59,14 @@ void redistributeOrRemap(const Patch& patch, const Gas&, ParticleMaker& maker, d
     splitLong<D>(patch, longestInCells, old, maker, fresh);
 }
 
-/// Counts the steps since the last remap; 0 means that a remap is due in this step, after `every` steps or because a
+/// Counts the steps since the latest remap. The count is 0 if this step does a remap, after `every` steps or because a
 /// cell is too full.
 inline void countSteps(const Patch&, const Remap& remap, double age, double fill, Maximum& count) {
   count.add(age + 1 >= remap.every || fill > 1 + remap.overfilled ? 0.0 : age + 1);
 }
 inline void keepCount(const Patch&, double count, Maximum& age) { age.add(count); }
 
-/// Mass and internal energy of the parts of particles in each cell, in the steps in which `count` is 0.
+/// Computes mass and internal energy of the parts of particles in each cell, in steps in which `count` is 0.
 template <int D>
 void gatherInCells(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
                    ParticleView<const double> mass, ParticleView<const double> internalEnergy, double count,

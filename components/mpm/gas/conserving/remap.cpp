@@ -5,15 +5,17 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// Sums over the parts of particles in each cell; offsets dx are from the middle of the cell.
+/// Sums over the parts of particles in each cell; offsets dx are measured from the middle of the cell.
 template <int D>
 struct CellSums {
   static constexpr std::size_t mass = 0, internal = 1, kinetic = 2;
   static constexpr std::size_t momentum = 3;
-  static constexpr std::size_t offset = momentum + D;   ///< m dx
-  static constexpr std::size_t square = offset + D;     ///< m (dx² + l²/12), l the length of the part
-  static constexpr std::size_t moment = square + D;     ///< D by axis: m (u dx_d + B_d l_d²/12)
-  static constexpr std::size_t modes = moment + D * D;  ///< D by axes of a mixed mode: m u_a
+  static constexpr std::size_t offset = momentum + D;  ///< index of the first of D sums of m dx
+  /// Index of the first of D sums of m (dx² + l²/12), where l is the length of the part.
+  static constexpr std::size_t square = offset + D;
+  /// Index of the first sum of m (u dx_d + B_d l_d²/12): D for each axis.
+  static constexpr std::size_t moment = square + D;
+  static constexpr std::size_t modes = moment + D * D;  ///< index of the first sum of m u_a: D for each mixed mode
   static constexpr std::size_t count = modes + D * ((1 << D) - 1 - D);
 
   using Fields = GridSums<D, count, 0>;
@@ -22,12 +24,12 @@ struct CellSums {
 /// Whether a mode depends on several axes.
 constexpr bool isMixed(std::size_t a) { return (a & (a - 1)) != 0; }
 
-/// The cells' mass and internal energy.
+/// Views of the cells' mass and internal energy.
 template <int D>
 using Contents = GridFields<D, 2>;
 
-/// Van Leer's limited slopes of a cell variable, relative to its value, 1/m; 0 at the sides of the grid. They are
-/// scaled so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
+/// Van Leer's limited slopes of a cell variable, relative to its value [1/m]; 0 at the sides of the grid. They are
+/// scaled so that the variable is at least a fifth of its mean everywhere in boxes with these edge lengths.
 template <int D>
 LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
                            const LanesVec<D>& edges) {
@@ -47,18 +49,18 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
   return select(swing > 0.8, 0.8 / swing, 1) * slopes;
 }
 
-/// The parts of the particles of a batch in one cell each.
+/// The parts of a batch's particles in one cell each.
 template <int D>
 struct Part {
   LanesVec<D> x, edges;  ///< centre and edge lengths
   Lanes mass, internal;  ///< parts of the particle's mass and internal energy
 };
 
-/// The parts of boxes that are cut at the faces of cells.
+/// The parts into which boxes are cut at the faces of cells.
 template <int D>
 class Parts {
  public:
-  /// `density` and `energy` are the relative slopes by which mass and internal energy are divided among the parts.
+  /// `density` and `energy` are the relative slopes with which mass and internal energy are divided among the parts.
   Parts(const Footprint<D>& footprint, const LanesVec<D>& centre, const LanesVec<D>& density,
         const LanesVec<D>& energy) {
     footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
@@ -78,7 +80,7 @@ class Parts {
       at(k).internal /= internal;
     });
   }
-  /// The part in a cell of the footprint.
+  /// The part in cell k of the footprint.
   Part<D>& at(const Index<D>& k) { return parts_[Footprint<D>::number(k)]; }
   /// Sum of `value(part)` over the parts.
   template <class Value>
@@ -90,7 +92,7 @@ class Parts {
   std::array<Part<D>, Footprint<D>::places> parts_;
 };
 
-/// Sets the terms of a part in the sums of its cell.
+/// Sets the terms that a part adds to the sums of its cell.
 template <int D>
 void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, const Part<D>& part,
            const LanesVec<D>& dx, const LanesVec<D>& u, const LanesTensor<D>& gradient, const LanesModes<D>& modes,
@@ -116,7 +118,7 @@ void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, co
   }
 }
 
-/// Cuts a batch of particles at the faces of cells and adds the parts to the sums.
+/// Cuts a batch of particles at the faces of cells, and adds the parts to the sums.
 template <int D>
 void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, const Contents<D>& contents,
          typename CellSums<D>::Fields& sums) {
@@ -158,8 +160,8 @@ void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, co
 template <int D>
 struct Contained {
   Lanes mass, internalEnergy;
-  Lanes within;        ///< kinetic energy per mass of the motion about the mean velocity, J/kg
-  LanesVec<D> offset;  ///< offset of the centre of mass from the centre of the cell, m
+  Lanes within;        ///< kinetic energy per mass of the motion about the mean velocity [J/kg]
+  LanesVec<D> offset;  ///< offset of the centre of mass from the centre of the cell [m]
   LanesVec<D> velocity;
   LanesModes<D> modes;
 
@@ -191,13 +193,13 @@ struct Contained {
 };
 
 /// The box of a new particle: its cell or, next to an empty cell, the part of the cell that the gas occupies, so that
-/// gas does not spread into a vacuum by one cell with every remap. At least a tenth of the cell wide.
+/// gas does not spread into a vacuum by one cell with every remap. It is at least a tenth of the cell wide.
 template <int D>
 struct NewBox {
   Vec<D> centre, edges;
-  Vec<D> inertia;  ///< mean squares of the distances of nodes from the centre, m²
+  Vec<D> inertia;  ///< mean squares of the distances of nodes from the centre [m²]
 
-  /// `offset` is that of the centre of mass from the centre of the cell.
+  /// `offset` is the offset of the centre of mass from the centre of the cell.
   NewBox(const Level& level, CellView<const double> mass, const Index<D>& cell, const Vec<D>& offset) {
     for (int d = 0; d < D; ++d) {
       const double h = level.spacing(d);
@@ -218,7 +220,7 @@ struct NewBox {
   }
 };
 
-/// The new particle of a cell, with the contents of all parts, in the box NewBox.
+/// Makes the new particle of a cell, with the contents of all parts, in the box NewBox.
 template <int D>
 GasBox<D> boxOf(const Level& level, CellView<const double> mass, const Index<D>& cell, const Contained<D>& contained,
                 int lane) {

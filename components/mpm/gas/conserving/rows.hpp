@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// A matrix of Lanes: one matrix for each of several particles, cells or nodes side by side.
+/// A matrix of Lanes: one matrix per lane, for several particles, cells or nodes side by side.
 template <int Rows, int Columns>
 using LanesMatrix = Eigen::Matrix<Lanes, Rows, Columns, Eigen::DontAlign>;
 /// One vector in each lane.
@@ -24,7 +24,7 @@ template <int Rows, int Columns>
   for (int k = 0; k < Rows * Columns; ++k) values(k % Rows, k / Rows) = columns[static_cast<std::size_t>(k)];
   return values;
 }
-/// The reverse of matrixOf.
+/// The coefficients of a matrix, in the order in which Eigen stores them: the inverse of matrixOf.
 template <int Rows, int Columns>
 [[gnu::always_inline]] inline std::array<Lanes, Rows * Columns> coefficientsOf(
     const LanesMatrix<Rows, Columns>& values) {
@@ -33,7 +33,7 @@ template <int Rows, int Columns>
   return columns;
 }
 
-/// Consecutive cells or nodes of a row, one per lane; lanes beyond `count` repeat the last.
+/// Consecutive cells or nodes of a row, one per lane; lanes beyond `count` repeat the last one.
 template <int D>
 struct RowPart {
   Index<D> first;

@@ -6,24 +6,25 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The update of particle velocities from those of the grid.
+/// How particle velocities are updated from those of the grid.
 enum class Transfer {
-  apic,       ///< the grid's velocity, with its gradient, replaces theirs: Jiang et al., ACM Trans. Graph. 34 (2015) 51
-  affineFlip  ///< the change of the grid's velocity is added to theirs where the flow is smooth; at shocks like apic
+  apic,       ///< replaced by the grid's velocity and its gradient: Jiang et al., ACM Trans. Graph. 34 (2015) 51
+  affineFlip  ///< changed by the change of the grid's velocity where the flow is smooth; like apic at shocks
 };
 
-/// When to replace particles by one per cell.
+/// When to replace the particles by one per cell.
 struct Remap {
-  int every = 4;             ///< steps
-  double overfilled = 0.02;  ///< or when the gas in a cell exceeds its volume by this fraction
+  int every = 4;             ///< interval in steps
+  double overfilled = 0.02;  ///< remap earlier if the volume of the gas in a cell exceeds the cell by this fraction
 };
 
-/// The `conserving_gas_dynamics` section.
+/// The section `conserving_gas_dynamics`.
 struct ConservingGasDynamics {
   Transfer transfer = Transfer::apic;
-  double cfl = 0.5;               ///< apic: dt times the speed of signals over h; affineFlip: dt max(c) / h
-  double advectiveCfl = 0.8;      ///< affineFlip: dt max |v_d| / h
-  double longestParticle = 2.36;  ///< cells; longer ones are halved
+  /// Courant number. apic: dt times the speed of signals over h; affineFlip: dt max(c) / h
+  double cfl = 0.5;
+  double advectiveCfl = 0.8;      ///< second Courant number of affineFlip: dt max |v_d| / h
+  double longestParticle = 2.36;  ///< largest length of a particle [cells]; longer ones are halved
   Viscosity viscosity{1.0, 0.5};
   double heatConduction = 0;  ///< C_h of artificial heat conduction at shocks
   std::optional<Remap> remap;
@@ -32,7 +33,7 @@ struct ConservingGasDynamics {
 /// Properties of apic, as compile-time constants.
 struct Apic {
   static constexpr Transfer transfer = Transfer::apic;
-  static constexpr double faceTime = 1.0;     ///< faces move with v + faceTime dt a
+  static constexpr double faceTime = 1.0;     ///< faces move with velocity v + faceTime dt a
   static constexpr double spareEnergy = 0.5;  ///< fraction of e that may compensate for a lack of kinetic energy
 };
 struct AffineFlip {

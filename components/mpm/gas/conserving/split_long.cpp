@@ -5,7 +5,7 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// Half of a piece along an axis, on the lower (-1) or upper (1) side.
+/// The lower (-1) or upper (1) half of a piece along an axis.
 template <int D>
 GasBox<D> half(const GasBox<D>& whole, int axis, int side) {
   GasBox<D> part = whole;
@@ -22,7 +22,7 @@ GasBox<D> half(const GasBox<D>& whole, int axis, int side) {
   return part;
 }
 
-/// Adds a piece, halved along each axis from `axis` on along which it is too long.
+/// Adds a piece, halved along each axis, starting at `axis`, along which it is too long.
 template <int D>
 void addHalved(const Patch& patch, double longestInCells, const GasBox<D>& piece, int axis, ParticleMaker& maker,
                const NewBoxes<D>& fresh) {

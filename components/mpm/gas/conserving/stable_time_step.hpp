@@ -8,9 +8,10 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// dt <= 0.4 divided by the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
-/// stretched along an axis, |dv_d/dx_d|: no box doubles its length, no cell loses half its volume or energy. In cells
-/// without gas the rates count half: a front moves by at most .8 of the width of an empty cell.
+/// Limits dt to 0.4 divided by each of three rates of every cell: of compression, -div v; of cooling by expansion,
+/// (gamma - 1) div v; and of stretching along an axis, |dv_d/dx_d|. So no box doubles its length, and no cell loses
+/// half its volume or energy. In cells without gas the rates count half: a front moves by at most .8 of the width of an
+/// empty cell.
 template <int D>
 void limitDeformation(const Patch& patch, const Gas& gas, CellView<const double> mass,
                       CellView<const Tensor<D>> gradient, Minimum& dt) {
@@ -25,7 +26,7 @@ void limitDeformation(const Patch& patch, const Gas& gas, CellView<const double>
   if (const double fastest = greatest(most); fastest > 0) dt.add(0.4 / fastest, "deformation");
 }
 
-/// dt = min(cfl h / max c, advectiveCfl h / max |v_d|) over the particles, and limitDeformation.
+/// Computes dt = min(cfl h / max c, advectiveCfl h / max |v_d|) over the particles, and applies limitDeformation.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingGasDynamics& method,
                            ParticleView<const Vec<D>> velocity, ParticleView<const double> internalEnergy,
@@ -41,16 +42,17 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
   limitDeformation<D>(patch, gas, mass, gradient, dt);
 }
 
-/// The largest speed of signals in cells relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
-/// where Delta is the velocity difference across the cell, since shocks are faster than sound. The form is that of D.
-/// J. Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater
-/// error than one at rest, and one at rest has that of |v| + c alone.
+/// The largest speed of signals in cells relative to the gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
+/// where Delta is the velocity difference across the cell: shocks are faster than sound. The form is that of D. J.
+/// Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235. With these factors, the error for a moving gas is hardly
+/// larger than for a gas at rest. For a gas at rest, the error is the same as with |v| + c.
 inline Lanes signalInCells(const Level& level, Lanes divergence, Lanes soundSpeedSquared) {
   const Lanes q = 1.4 * level.minSpacing() * abs(divergence);
   return 1.25 * (q + sqrt(q * q + soundSpeedSquared));
 }
 
-/// The largest speeds of signals [m/s]: of particles relative to the grid, |v| + c; and signalInCells.
+/// Computes the largest speeds of signals [m/s]: relative to the grid, |v| + c over the particles; and relative to the
+/// gas, signalInCells over the cells.
 template <int D>
 void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D>> velocity,
                     ParticleView<const double> internalEnergy, CellView<const double> mass,
@@ -67,8 +69,8 @@ void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D
   pastGas.add(greatest(fastest));
 }
 
-/// dt = cfl h over the smaller of the two speeds of measureSignals; and limitDeformation. Boxes move with the gas, so
-/// only signals relative to the gas need a limit; where the gas is slow, |v| + c is the sharper bound.
+/// Computes dt = cfl h over the smaller of the two speeds of measureSignals, and applies limitDeformation. Boxes move
+/// with the gas, so only signals relative to the gas need a limit; where the gas is slow, |v| + c is the sharper bound.
 template <int D>
 void computeAcousticTimeStep(const Patch& patch, const Gas& gas, const ConservingGasDynamics& method,
                              CellView<const double> mass, CellView<const Tensor<D>> gradient, double pastGrid,

@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The velocities of particles as fields about their centres.
+/// The velocities in the boxes of particles, as multilinear fields about the centres of the boxes.
 template <int D>
 typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity, const LanesModes<D>& modes) {
   typename Footprint<D>::template Field<D - 1> field;
@@ -53,7 +53,7 @@ struct Gathering {
   }
 };
 
-/// Particles, and the state of the grid that is gathered from them.
+/// Views of particles, and of the grid state that is gathered from them.
 template <int D>
 struct ParticlesToGrid {
   ParticleView<const Vec<D>> x, edges;
@@ -80,7 +80,8 @@ struct ParticlesToGrid {
   }
 };
 
-/// m_i = sum w m,   v_i = sum w m u(x_i) / m_i on the patch's nodes,   M_c = sum o m,   IE_c = sum o m e in its cells;
+/// Computes m_i = sum w m,   v_i = sum w m u(x_i) / m_i on the patch's nodes,   M_c = sum o m,   IE_c = sum o m e in
+/// its cells;
 /// w and o as in Footprint, u the velocity of the particle's modes. Symmetry planes: no normal velocity.
 /// If `Fills`, calls `visitFill(cell, volume)` with the volume of the boxes in each cell.
 template <int D, bool Fills, class Visit>
@@ -108,13 +109,13 @@ void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visit
   stopAtSymmetryPlanes<D>(patch, t.nodeVelocity);
 }
 
-/// The task that only calls gatherOnGrid.
+/// Gathers the particles on the grid: the task that only calls gatherOnGrid.
 template <int D>
 void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer) {
   gatherOnGrid<D, false>(patch, transfer, [](const Index<D>&, double) {});
 }
 
-/// Calls gatherOnGrid, and computes the volume fraction of the boxes in each cell, which is 1 if they tile the cell.
+/// Calls gatherOnGrid, and computes the fraction of each cell that boxes fill, which is 1 if they tile the cell.
 template <int D>
 void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer,
                                CellView<double> fill, Maximum& greatest) {
@@ -126,19 +127,19 @@ void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesTo
   });
 }
 
-/// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or in the whole footprint
+/// Sums in (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), in a plane, or in the whole footprint
 /// (Axis = D - 1), with the weights along these axes.
 template <int D, class Scheme, int Axis>
 struct Gathered {
   static constexpr bool apic = Scheme::transfer == Transfer::apic;
-  /// The velocity of a face [m/s]; without apic only its normal component.
+  /// The velocity of a face [m/s]; without apic, only its normal component.
   using FaceVelocity = std::conditional_t<apic, LanesVec<D>, Lanes>;
 
-  std::array<LanesVec<D>, apic ? 1 : 1 << (Axis + 1)> moments;  ///< y phi_a; apic: only the first
-  std::array<FaceVelocity, Axis + 1> lower, upper;              ///< of the faces across each axis
-  LanesVec<D> moving = LanesVec<D>::Zero();                     ///< mean of v + faceTime dt a over the nodes, m/s
-  Lanes slipEnergy = 0;                                         ///< beta (2 - beta) |r|² / 2, J/kg
-  Lanes square = 0;                                             ///< |y|², J/kg
+  std::array<LanesVec<D>, apic ? 1 : 1 << (Axis + 1)> moments;  ///< sums of y phi_a; for apic, only the first one
+  std::array<FaceVelocity, Axis + 1> lower, upper;              ///< velocities of the faces across each axis
+  LanesVec<D> moving = LanesVec<D>::Zero();                     ///< mean of v + faceTime dt a over the nodes [m/s]
+  Lanes slipEnergy = 0;                                         ///< beta (2 - beta) |r|² / 2 [J/kg]
+  Lanes square = 0;                                             ///< |y|² [J/kg]
 
   Gathered() {
     moments.fill(LanesVec<D>::Zero());
@@ -170,15 +171,15 @@ struct Gathered {
   }
 };
 
-/// Grid fields that update particles: v, v + dt a and v + faceTime dt a at nodes along each axis, 1 - beta and
-/// beta (2 - beta) / 2 at nodes, f in cells.
+/// Grid fields from which particles are updated: at nodes, the components of v, v + dt a and v + faceTime dt a, and 1 -
+/// beta and beta (2 - beta) / 2; in cells, f.
 template <int D>
 struct Motion : GridFields<D, 3 * D + 3> {
   static constexpr std::size_t accelerated = D, moving = 2 * D, kept = 3 * D, slip = kept + 1, work = kept + 2;
   using GridFields<D, 3 * D + 3>::GridFields;
 };
 
-/// The variables that updateParticles reads and writes.
+/// Views of the variables that updateParticles reads and writes.
 template <int D>
 struct ParticleUpdate {
   // Particles at the start of the step.
@@ -234,7 +235,7 @@ Motion<D> motionOn(const Patch& patch, const ParticleUpdate<D>& update, double d
   return motion;
 }
 
-/// Reads the motion near a batch.
+/// Reads the grid fields near a batch.
 template <int D>
 struct Reader {
   const Motion<D>& motion;
@@ -248,7 +249,7 @@ struct Reader {
   }
 };
 
-/// Adds nodes of a line, one per lane.
+/// Adds the nodes of a line, one particle per lane.
 template <int D, class Scheme>
 [[gnu::always_inline]] inline void addNode(const Footprint<D>& footprint, const Index<D>& at, const Reader<D>& read,
                                            const LanesVec<D>& field, Gathered<D, Scheme, 0>& sum) {
@@ -267,7 +268,7 @@ template <int D, class Scheme>
   sum.square += wy.dot(y);
 }
 
-/// Adds a line to a plane, or a plane to the footprint.
+/// Adds a line to the sum over a plane, or a plane to the sum over the footprint.
 template <int D, class Scheme, int Axis>
 [[gnu::always_inline]] inline void addSlice(const Footprint<D>& footprint, std::size_t k,
                                             const Gathered<D, Scheme, Axis - 1>& slice,
@@ -310,7 +311,7 @@ template <int D, class Scheme, int Axis>
   });
 }
 
-/// Sum of o_c f_c.
+/// Computes the sum of o_c f_c over the cells of the footprint: the relative change of internal energy by work.
 template <int D>
 Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
   return footprint.sumOverParts([&](const Index<D>& k, const Lanes& part) { return part * read(Motion<D>::work, k); });
@@ -328,7 +329,7 @@ void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, 
   }
 }
 
-/// Requires a smaller time step if work would take more than 0.8 of the internal energy, or make it negative.
+/// Requires a smaller time step if the work would use more than 0.8 of the internal energy, or make it negative.
 template <int D>
 void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy, Minimum& factor) {
   if (batch.holds((work > -0.8) & (energy >= 0))) return;
@@ -339,7 +340,7 @@ void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy,
   }
 }
 
-/// Updates particles from node velocities v, accelerations a and relaxations beta, and from the work f of cells.
+/// Updates particles from node velocities v, accelerations a and relaxations beta, and from the work f on cells.
 ///
 /// With z = u(x_i), r = z - v_i, y = z - beta r + dt a_i (apic: beta = 1, so that y = v_i + dt a_i), and means over the
 /// box, sum of w_i:

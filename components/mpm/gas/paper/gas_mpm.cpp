@@ -14,7 +14,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The state at t_0, including p_p and m_p, which each step reads at its start.
+/// Adds the tasks that create the state at t_0, including p_p and m_p, which each step reads at its start.
 template <int D>
 void GasMpm<D>::scheduleInitialize(TaskList& tasks) const {
   tasks.newParticles("mpm::createParticles", createParticles<D>, materials_, creates(p::x<D>), creates(p::velocity<D>),
@@ -30,9 +30,9 @@ void GasMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
                     requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), computes(delT));
 }
 
-/// A step from t_n to t_n+1, with the equations of the paper. `requiresOld` is the state at t_n, `requiresNew` what the
-/// step has computed. The paper assigns particle masses at the start of a step, this list at its end, to the same
-/// effect.
+/// One step from t_n to t_n+1, with the equations of the paper. `requiresOld` reads the state at t_n, `requiresNew` the
+/// results of the step. The paper assigns particle masses at the start of a step; this list does so at its end, with
+/// the same effect.
 template <int D>
 void GasMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   scheduleInterpolateParticlesToGrid(tasks);                // (6)-(8)    m_i, v_i of t_n
@@ -47,7 +47,7 @@ void GasMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (!conserves()) scheduleShareCellVolume(tasks);         // (4)-(5)    m_p of t_n+1
 }
 
-/// (6)-(8)
+/// Equations (6)-(8).
 template <int D>
 void GasMpm<D>::scheduleInterpolateParticlesToGrid(TaskList& tasks) const {
   tasks.perMaterial("mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<D>, materials_,
@@ -55,8 +55,8 @@ void GasMpm<D>::scheduleInterpolateParticlesToGrid(TaskList& tasks) const {
                     computes(g::mass), computes(g::velocity<D>));
 }
 
-/// (9). The pressure p_p is that of the state at t_n, at which the step before ended with (16): the paper's (11) calls
-/// the acceleration that follows from it a_i^n.
+/// Equation (9). The pressure p_p is that of the state at t_n, computed with (16) at the end of the previous step: in
+/// (11) of the paper, the acceleration from this pressure is called a_i^n.
 template <int D>
 void GasMpm<D>::scheduleComputeInternalForce(TaskList& tasks) const {
   if (conserves())
@@ -68,7 +68,7 @@ void GasMpm<D>::scheduleComputeInternalForce(TaskList& tasks) const {
                       computes(g::internalForce<D>));
 }
 
-/// (10)-(11), and the boundary conditions of a_i and of v_i at t_n+1.
+/// Equations (10)-(11), and the boundary conditions for a_i and for v_i at t_n+1.
 template <int D>
 void GasMpm<D>::scheduleComputeAndIntegrateAcceleration(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeAndIntegrateAcceleration", computeAndIntegrateAcceleration<D>, materials_,
@@ -78,7 +78,7 @@ void GasMpm<D>::scheduleComputeAndIntegrateAcceleration(TaskList& tasks) const {
                     modifies(g::acceleration<D>), modifies(g::velocityStar<D>));
 }
 
-/// (12)-(15)
+/// Equations (12)-(15).
 template <int D>
 void GasMpm<D>::scheduleUpdateParticles(TaskList& tasks) const {
   tasks.perMaterial("mpm::updateParticles", conserves() ? updateParticlesConserving<D> : updateParticles<D>, materials_,
@@ -92,7 +92,7 @@ void GasMpm<D>::scheduleRedistribute(TaskList& tasks) const {
                      all<OldParticles<D>>(conserves(), ghost), all<NewParticles<D>>(conserves()));
 }
 
-/// (18), of densities
+/// Equation (18), for densities.
 template <int D>
 void GasMpm<D>::scheduleFilterDensity(TaskList& tasks) const {
   tasks.perMaterial("mpm::averageDensity", averageDensity<D>, materials_, requiresNew(p::density),
@@ -101,7 +101,7 @@ void GasMpm<D>::scheduleFilterDensity(TaskList& tasks) const {
                     modifies(p::density));
 }
 
-/// (16)
+/// Equation (16).
 template <int D>
 void GasMpm<D>::scheduleComputePressure(TaskList& tasks) const {
   tasks.perMaterial("mpm::computePressure", computePressure<D>, materials_, with(method_.viscosity),
@@ -109,7 +109,7 @@ void GasMpm<D>::scheduleComputePressure(TaskList& tasks) const {
                     computes(p::pressure));
 }
 
-/// (4)-(5)
+/// Equations (4)-(5).
 template <int D>
 void GasMpm<D>::scheduleShareCellVolume(TaskList& tasks) const {
   tasks.perMaterial("mpm::shareCellVolume", shareCellVolume<D>, materials_, requiresNew(p::density), computes(p::mass));

@@ -26,10 +26,10 @@ class GasMpm : public GasMethod<GasDynamics> {
   void scheduleMeasureError(TaskList&, const reference::GasReference&, const reference::Clock&) const override;
 
  private:
-  /// Layers of cells around a patch whose particles touch its nodes.
+  /// Number of layers of cells around a patch whose particles contribute to the nodes of the patch.
   static constexpr int reach = Linear<D>::reach;
 
-  /// Whether particles keep their mass, so that mass and energy are conserved, instead of (4)-(5).
+  /// Whether particles keep their mass, so that mass and energy are conserved, instead of using (4)-(5).
   bool conserves() const { return method_.volumeModel == VolumeModel::tracked; }
   void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
   void scheduleComputeInternalForce(TaskList& tasks) const;

@@ -5,10 +5,10 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The `gas_dynamics` section of `MPM`.
+/// The schema of the section `gas_dynamics` of `MPM`.
 const input::Schema<GasDynamics>& methodSchema();
 
-/// Throws InputError if a reseeded cell would have more than max_particles, and so would be reseeded in every step.
+/// Throws InputError if a reseeded cell would have more than max_particles: it would be reseeded in every step.
 void checkSeeds(const Redistribution& how, int dimension);
 
 }  // namespace tushar::mpm::gas::paper

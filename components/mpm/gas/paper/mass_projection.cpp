@@ -14,15 +14,16 @@ namespace tushar::mpm::gas::paper {
 
 namespace {
 
-/// Layers of ghost cells: the cell across a face, and the next, whose particles define the density in the former.
+/// Number of layers of ghost cells: the cell across a face, and the next one, whose particles determine the density in
+/// the former.
 constexpr int reach = 2;
 
-/// Simpson's rule from the values at both ends and in the middle: exact for cubics.
+/// Simpson's rule with the values at both ends and in the middle: exact for cubics.
 double simpson(double width, double first, double middle, double last) {
   return width / 6 * (first + 4 * middle + last);
 }
 
-/// The particles of a cell sorted by position, which is measured from cell `from`; none for a cell outside the grid.
+/// The particles of a cell sorted by position, measured from cell `from`; empty for a cell outside the grid.
 std::vector<PlacedDensity> particlesOf(int cell, int from, const Level& level, ParticleView<const Vec<1>> x,
                                        ParticleView<const double> density) {
   std::vector<PlacedDensity> particles;
@@ -34,14 +35,15 @@ std::vector<PlacedDensity> particlesOf(int cell, int from, const Level& level, P
   return particles;
 }
 
-/// The density on a face between a particle inside and one outside; without the latter, that of the particle inside.
+/// The density on a face of a cell, interpolated between a particle in the cell and one beyond the face; if there is
+/// none beyond, the density of the particle in the cell.
 double densityAt(double face, const std::optional<PlacedDensity>& beyond, const PlacedDensity& within) {
   if (!beyond || beyond->place == within.place) return within.density;
   const double part = (face - within.place) / (beyond->place - within.place);
   return within.density + part * (beyond->density - within.density);
 }
 
-/// The contribution of a cell to its nodes; none for a cell without particles.
+/// The contribution of a cell to its nodes; none if the cell contains no particles.
 std::optional<CellProjection> projectionOf(int cell, const Level& level, ParticleView<const Vec<1>> x,
                                            ParticleView<const double> density) {
   const std::vector<PlacedDensity> here = particlesOf(cell, cell, level, x, density);
@@ -76,7 +78,7 @@ class MassProjection : public simulation::Analysis {
   const std::vector<Gas>* materials_;
 };
 
-/// Why the module cannot be used in this run; empty if it can.
+/// The reason why the module cannot be used in this run; empty if it can.
 std::string misfit(const GasMpm<1>* mpm, const Level& level) {
   if (level.dimension() > 1)
     return fmt::format("works only in one dimension, like its theorem, but this grid has {}; remove the module",

@@ -9,8 +9,9 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// `massProjection`: the difference between the nodal mass m_i and the integral of S_i rho, and its bound: (19)-(23) of
-/// Tran, Kim & Berzins. In one dimension, for `gas_dynamics` with `volume_model` cell_share.
+/// `massProjection`: computes the difference between the nodal mass m_i and the integral of S_i rho, and the bound of
+/// this difference: (19)-(23) of Tran, Kim & Berzins. In one dimension, for `gas_dynamics` with `volume_model`
+/// cell_share.
 ///
 /// rho(x) is taken to be piecewise linear between the particles, and constant beyond the last one before an empty cell:
 /// so rho(x_p) = rho_p, as (19) requires, at any time and without an exact solution. E_m^i therefore excludes the error
@@ -25,7 +26,7 @@ inline constexpr NodeLabel<double> massProjectionError{
 inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "bound of |E_m^i|"};
 }  // namespace g
 
-/// The largest |E_m^i| divided by the volume of a cell, which is |E_m^i| / h in the paper.
+/// The label of the largest |E_m^i| divided by the volume of a cell, which is |E_m^i| / h in the paper.
 inline constexpr ReductionLabel<Maximum> massProjectionError{
     "MassProjectionError", "kg/m^3", "largest error of the mass projection, divided by the cell volume"};
 inline constexpr ReductionLabel<Maximum> massProjectionRatio{
@@ -34,25 +35,26 @@ inline constexpr ReductionLabel<Maximum> massProjectionRatio{
 /// The position of a particle relative to a cell (0: lower face, 1: upper face), and its density.
 struct PlacedDensity {
   double place;
-  double density;  ///< kg/m³
+  double density;  ///< density [kg/m³]
 };
 
-/// D_2 of the particles of a cell, sorted by place:
+/// The discrepancy D_2 of the particles of a cell, sorted by position:
 /// sqrt(1 / (12 N²) + 1/N sum_k (z_k - (2k-1)/(2N))²), (20) with z in [0,1]; Hickernell, Math. Comp. 67 (1998) 299.
 double discrepancy(const std::vector<PlacedDensity>& particles);
 
 /// The contribution of a cell to the errors of its lower and its upper node, divided by its volume [kg/m³].
 struct CellProjection {
-  std::array<double, 2> error{};  ///< one bracket of (22)
-  std::array<double, 2> bound{};  ///< one term of (23); |d(rho S_i)/dx| at xi is its root mean square over the cell
+  std::array<double, 2> error{};  ///< error at each node, one bracket of (22)
+  /// Bound at each node, one term of (23); |d(rho S_i)/dx| at xi is its root mean square over the cell.
+  std::array<double, 2> bound{};
 };
 
-/// The contribution of a cell with at least one particle; `particles` are sorted by place. `line` is the density along
-/// the cell: piecewise linear between its points, from place 0 to place 1.
+/// Computes the contribution of a cell with at least one particle; `particles` are sorted by position. `line` is the
+/// density along the cell: piecewise linear between its points, from place 0 to place 1.
 CellProjection projectCell(const std::vector<PlacedDensity>& particles, const std::vector<PlacedDensity>& line);
 
-/// E_m^i and its bound at the nodes [kg], and the greatest ratios of |E_m^i| to the cell volume [kg/m³] and to its
-/// bound. A node beside a cell without particles has neither: it gets 0 for both.
+/// Computes E_m^i and its bound at the nodes [kg], and the largest ratios of |E_m^i| to the cell volume [kg/m³] and to
+/// its bound. A node beside a cell without particles has neither: both are set to 0.
 void measureMassProjection(const Patch& patch, const Gas& gas, ParticleView<const Vec<1>> x,
                            ParticleView<const double> density, NodeView<double> error, NodeView<double> bound,
                            Maximum& greatestError, Maximum& greatestRatio);

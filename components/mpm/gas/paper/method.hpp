@@ -9,11 +9,12 @@ namespace tushar::mpm::gas::paper {
 
 /// The volume, and hence the mass, that a particle represents.
 enum class VolumeModel {
-  cellShare,  ///< V_c / N_c, (5) of the paper, in each step: neither mass nor energy is conserved
-  tracked,    ///< its own volume: mass is constant, volume is mass over density; mass and total energy are conserved
+  /// An equal share of the cell, V_c / N_c, (5) of the paper, in each step: neither mass nor energy is conserved.
+  cellShare,
+  tracked,  ///< its own volume: mass is constant, volume is mass over density; mass and total energy are conserved
 };
 
-/// The `gas_dynamics` section: the settings of the gas method.
+/// The section `gas_dynamics`: the settings of the gas method.
 struct GasDynamics {
   double cfl = 0.2125;
   Viscosity viscosity;

@@ -47,11 +47,10 @@ void refuseImpossible(const GasObject& object, const Vec3& point, double density
     value = velocity.sum();
   }
   if (!what) return;
-  throw InputError(
-      {{placeOf({where}, object.where), "geom_object",
-        fmt::format("its {} is {:g} at the point ({:g}, {:g}, {:g}); density must be greater than 0, pressure at "
-                    "least 0, and all must be finite",
-                    what, value, point[0], point[1], point[2])}});
+  throw InputError({{placeOf({where}, object.where), "geom_object",
+                     fmt::format("its {} is {:g} at the point ({:g}, {:g}, {:g}); expected a density greater than 0, a "
+                                 "pressure of at least 0, and only finite values",
+                                 what, value, point[0], point[1], point[2])}});
 }
 
 }  // namespace tushar::mpm::gas

@@ -10,10 +10,10 @@ namespace tushar::mpm::gas {
 /// Throws InputError if another body of the gas also contains the point.
 void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
 
-/// The message for a body without particles on the grid.
+/// The message about a body without particles on the grid.
 InputProblem emptyBody(const Level& level, const GasObject& object);
 
-/// Throws InputError unless the density is positive, the pressure not negative, and the whole state finite.
+/// Throws InputError unless the density is positive, the pressure is not negative, and the whole state is finite.
 void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,
                       const Vec3& velocity);
 
@@ -21,15 +21,16 @@ void refuseImpossible(const GasObject& object, const Vec3& point, double density
 /// `place` numbers the particles that a cell could hold.
 double drawn(int seed, std::uint64_t cellNumber, int place, int axis);
 
-/// The coordinate of the particle in part k of `parts` along an axis of its cell: -1/2 is the lower face, 1/2 the
-/// upper. `draw()` returns a random number in (0, 1).
+/// The coordinate, along an axis, of a particle in the k-th of `parts` equal parts of its cell: -1/2 is the lower face
+/// of the cell, 1/2 the upper. `draw()` returns a random number in (0, 1).
 template <class Draw>
 double placeInCell(Placement placement, int k, int parts, const Draw& draw) {
   if (placement == Placement::random) return draw() - 0.5;
   return (k - 0.5 * (parts - 1) + (placement == Placement::jittered ? draw() - 0.5 : 0.0)) / parts;
 }
 
-/// Calls `visit(x)` for each position [m] where a particle of the object would start in a cell; `place` counts them.
+/// Calls `visit(x)` for each position [m] in a cell at which a particle of the object is placed at the start; `place`
+/// counts them.
 template <int D, class Visit>
 void forEachPlace(const Level& level, const GasObject& object, const Index<D>& cell, int& place, const Visit& visit) {
   Box places{{}, Index3::filled(1)};
@@ -46,7 +47,7 @@ void forEachPlace(const Level& level, const GasObject& object, const Index<D>& c
   });
 }
 
-/// Throws InputError for bodies without a particle on the whole grid.
+/// Throws InputError if a body has no particle on the whole grid.
 template <int D>
 void checkBodies(const Level& level, const Gas& gas) {
   std::vector<InputProblem> problems;
@@ -68,7 +69,7 @@ void checkBodies(const Level& level, const Gas& gas) {
 
 /// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
 /// x_p = (c + (k + 1/2) / N) h, or as the `placement` of the body says. Only points that belong to the shape get a
-/// particle. They have the body's state at that point.
+/// particle, with the body's state at the point.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
 /// Throws InputError where two bodies contain the same point, and for a body without a particle on the grid.

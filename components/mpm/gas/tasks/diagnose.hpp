@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::gas {
 
-/// Mass of all particles [kg].
+/// Computes the mass of all particles [kg].
 template <int D>
 void sumMass(const Patch& patch, const Gas&, ParticleView<const double> mass, Sum& total) {
   WideSum sum(total);
@@ -16,7 +16,7 @@ void sumMass(const Patch& patch, const Gas&, ParticleView<const double> mass, Su
   });
 }
 
-/// Momentum of all particles [kg m/s].
+/// Computes the momentum of all particles [kg m/s].
 template <int D>
 void sumMomentum(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                  VectorSum& total) {
@@ -31,7 +31,7 @@ void sumMomentum(const Patch& patch, const Gas&, ParticleView<const double> mass
   });
 }
 
-/// Kinetic, internal and total energy of all particles [J].
+/// Computes the kinetic, internal and total energy of all particles [J].
 template <int D>
 void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<const double> internalEnergy, Sum& kinetic, Sum& internal, Sum& total) {
@@ -48,14 +48,14 @@ void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, 
   });
 }
 
-/// Sum of mass times position [kg m].
+/// Computes the sum of mass times position [kg m].
 template <int D>
 void sumCenterOfMass(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
                      VectorSum& centre) {
   for (int p = 0; p < mass.owned(); ++p) centre.add(mass[p] * patch.level().expandPoint<D>(x[p]));
 }
 
-/// Smallest density [kg/m³] and internal energy [J/kg] of any particle.
+/// Computes the smallest density [kg/m³] and internal energy [J/kg] of any particle.
 inline void findLeast(const Patch&, const Gas&, ParticleView<const double> density,
                       ParticleView<const double> internalEnergy, Minimum& leastDensity, Minimum& leastEnergy) {
   for (int p = 0; p < density.owned(); ++p) {
@@ -64,7 +64,8 @@ inline void findLeast(const Patch&, const Gas&, ParticleView<const double> densi
   }
 }
 
-/// Sum of m (ln epsilon - (gamma - 1) ln rho) [kg]: entropy over c_v, up to a constant that depends on units.
+/// Computes the sum of m (ln epsilon - (gamma - 1) ln rho) [kg]: entropy over c_v, up to a constant that depends on
+/// units.
 template <int D>
 void sumEntropy(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const double> density,
                 ParticleView<const double> internalEnergy, Sum& entropy) {
@@ -77,7 +78,7 @@ void sumEntropy(const Patch& patch, const Gas& gas, ParticleView<const double> m
   });
 }
 
-/// V_p = m_p / rho_p [m³].
+/// Computes V_p = m_p / rho_p [m³].
 inline void computeVolume(const Patch&, const Gas&, ParticleView<const double> mass, ParticleView<const double> density,
                           ParticleView<double> volume) {
   for (int p = 0; p < mass.owned(); ++p) volume[p] = mass[p] / density[p];

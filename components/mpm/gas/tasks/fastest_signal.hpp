@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas {
 
-/// max_p(|v_p| + c_p), c = sqrt(gamma (gamma - 1) eps) [m/s].
+/// Returns max_p(|v_p| + c_p), c = sqrt(gamma (gamma - 1) eps) [m/s].
 template <int D>
 double fastestSignal(const Gas& gas, ParticleView<const Vec<D>> velocity, ParticleView<const double> internalEnergy) {
   constexpr int chunk = 256;

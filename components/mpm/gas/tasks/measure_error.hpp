@@ -8,8 +8,8 @@ namespace tushar::mpm::gas {
 
 using reference::ErrorNorms;
 
-/// Errors of density, velocity, pressure (without artificial viscosity) and internal energy, relative to the exact
-/// values at the particles.
+/// Computes errors of density, velocity, pressure (without artificial viscosity) and internal energy, relative to the
+/// exact values at the particles.
 template <int D>
 void measureParticleError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                           const reference::Clock* clock, ParticleView<const Vec<D>> x,
@@ -27,8 +27,8 @@ void measureParticleError(const Patch& patch, const Gas& gas, const reference::G
   }
 }
 
-/// Errors of the plain means over the particles of a cell, relative to exact cell means. An empty cell counts as
-/// vacuum.
+/// Computes errors of the unweighted means over the particles of a cell, relative to exact cell means. An empty cell
+/// counts as vacuum.
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, ParticleView<const double> density,
@@ -50,8 +50,9 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
   });
 }
 
-/// Error of the nodal density m_i / V_i relative to the exact density at the node; V_i is the integral of S_i over the
-/// grid. Each node is counted once: by the patch of the cell above it or, on the upper boundary, of the cell below it.
+/// Computes the error of the nodal density m_i / V_i relative to the exact density at the node; V_i is the integral of
+/// S_i over the grid. Each node is counted once: by the patch of the cell above it or, on the upper boundary, of the
+/// cell below it.
 template <int D>
 void measureNodeError(const Patch& patch, const Gas&, const reference::GasReference* exact,
                       const reference::Clock* clock, NodeView<const double> mass, Norm& error) {

@@ -13,7 +13,8 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// Whether all strain work is stored as a function of F; then StrainEnergy is exact, even for large strains in a step.
+/// Whether all strain work is stored as a function of F; then StrainEnergy is exact, even for large strains in one
+/// step.
 bool storesAllStrain(const Problem& problem) {
   return !problem.start.solution &&
          std::all_of(problem.materials.begin(), problem.materials.end(), [](const Material& material) {

@@ -6,11 +6,12 @@
 
 namespace tushar::mpm::solid {
 
-/// `manufacturedError`: the errors of the particles' displacement and velocity relative to the solution of
+/// `manufacturedError`: computes the errors of the particles' displacement and velocity relative to the solution of
 /// `RunMMSProblem`.
 simulation::AnalysisKind manufacturedErrorKind();
 
-/// Lengths of u_p - u(X_p, t) and v_p - v(X_p, t), where X_p = x_p - u_p is the initial position of the particle.
+/// Computes the lengths of u_p - u(X_p, t) and v_p - v(X_p, t), where X_p = x_p - u_p is the initial position of the
+/// particle.
 template <int D>
 void measureManufacturedError(const Patch& patch, const Material& material, const Manufactured* solution,
                               const double* time, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> displacement,

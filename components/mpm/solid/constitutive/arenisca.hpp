@@ -9,18 +9,20 @@
 
 namespace tushar::mpm::solid {
 
-/// Arenisca: rock and soil with pores that collapse under pressure and may contain a fluid. Homel, Guilkey & Brannon,
-/// Acta Mech. 227 (2016) 279; the return to the yield surface is theirs of Comput. Mech. 56 (2015) 565, the relaxation
-/// to it that of Duvaut & Lions as in Brannon, Shock Wave Science and Technology Reference Library 2 (2007) 225,
-/// eqs. 6.92-93. Hypoelastic in axes that turn with the material. Uintah's `Arenisca4`; `Arenisca3` without Lode's
-/// angle; `Arenisca`, the oldest, a cone that an ellipse touches, with constant moduli (version 2).
+/// Arenisca, a model of rock and soil with pores that collapse under pressure and may contain a fluid: Homel, Guilkey &
+/// Brannon, Acta Mech. 227 (2016) 279. The return to the yield surface is from the same authors, Comput. Mech. 56
+/// (2015) 565; the relaxation to it is that of Duvaut & Lions as in Brannon, Shock Wave Science and Technology
+/// Reference Library 2 (2007) 225, eqs. 6.92-93. The model is hypoelastic in axes that rotate with the material.
+/// `version` 4 is Uintah's `Arenisca4`; 3 is `Arenisca3`, without Lode angle; 2 is `Arenisca`, the oldest, a cone with
+/// a tangent ellipse and constant moduli.
 template <int version>
 struct Arenisca : arenisca::Constants {
   struct State {
-    Tensor quasistatic;    ///< stress without rate dependence, Pa
-    Tensor plasticStrain;  ///< in axes that rotate with the material, 1
+    Tensor quasistatic;    ///< stress without rate dependence [Pa]
+    Tensor plasticStrain;  ///< plastic strain in axes that rotate with the material [1]
     double plasticVolume, elasticVolume;
-    double cap, capStart, zeta, porePressure;  ///< Pa
+    /// End of the cap, start of the cap, trace of the fluid's stress, and pore pressure [Pa].
+    double cap, capStart, zeta, porePressure;
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::InitialStress>;
   static constexpr std::array<StateVariable, 8> stateVariables{
@@ -79,7 +81,7 @@ struct Arenisca : arenisca::Constants {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(matrixBulk() * d.deformationGradient.determinant() / initialDensity);
   }
-  /// D : (mean stress) J dt
+  /// Strain energy of the step: D : (mean stress) J dt.
   double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
                              const State&) const {
     const Matrix3 mean = 0.5 * (oldStress + stress);
@@ -90,8 +92,8 @@ struct Arenisca : arenisca::Constants {
   static constexpr double sharpness = version == 4 ? 1e-5 : 1e-4;
 
   double capStart(double cap) const { return arenisca::YieldSurface(*this, cap, 0).branch(); }
-  /// sigma = sigma_qs + (d sigma_elastic - d sigma_qs) (1 - e^-x) / x + (sigma_old - sigma_qs,old) e^-x, x = |D|^t2
-  /// dt/t1
+  /// The rate-dependent stress: sigma = sigma_qs + (d sigma_elastic - d sigma_qs) (1 - e^-x) / x + (sigma_old -
+  /// sigma_qs,old) e^-x, x = |D|^t2 dt/t1
   Matrix3 relaxed(const Deformation& d, const Corotated& step, const arenisca::Point& before,
                   const arenisca::Point& after) const {
     const auto [bulkBefore, shearBefore] = before.moduli(*this);

@@ -10,10 +10,11 @@
 
 namespace tushar::mpm::solid {
 
-/// Rubber with chains of limited stretch: the eight-chain network of Arruda & Boyce, J. Mech. Phys. Solids 41 (1993)
-/// 389, eq. 33, whose inverse of Langevin's function is a series of five terms, here of the isochoric part of the
-/// deformation, with the pressure of comp_neo_hook. With I the trace of J^(-2/3) F Fᵀ and l the stretch at which chains
-/// lock, W = G sum_k c_k (I^k - 3^k) / l^(2k-2) + K/2 ((J² - 1)/2 - ln J), c = 1/2, 1/20, 11/1050, 19/7000, 519/673750.
+/// Rubber with chains of limited stretch: the eight-chain network model of Arruda & Boyce, J. Mech. Phys. Solids 41
+/// (1993) 389, eq. 33. The inverse of Langevin's function is a series of five terms; it is applied to the isochoric
+/// part of the deformation, and the pressure is that of comp_neo_hook. With I the trace of J^(-2/3) F Fᵀ and l the
+/// locking stretch of the chains, W = G sum_k c_k (I^k - 3^k) / l^(2k-2) + K/2 ((J² - 1)/2 - ln J), c = 1/2, 1/20,
+/// 11/1050, 19/7000, 519/673750.
 struct ArrudaBoyce8 {
   struct State {};
   using Capabilities = CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature,
@@ -21,9 +22,9 @@ struct ArrudaBoyce8 {
   static constexpr std::string_view name = "ArrudaBoyce8";
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;     ///< K, Pa
-  double shearModulus = 0;    ///< G for chains that never lock, Pa
-  double lockingStretch = 0;  ///< l, 1
+  double bulkModulus = 0;     ///< bulk modulus K [Pa]
+  double shearModulus = 0;    ///< G for chains that never lock [Pa]
+  double lockingStretch = 0;  ///< l, locking stretch [1]
 
   static const input::Schema<ArrudaBoyce8>& schema() {
     static const input::Schema<ArrudaBoyce8> schema =
@@ -36,13 +37,13 @@ struct ArrudaBoyce8 {
   }
   State initialState() const { return {}; }
 
-  /// J sigma = K/2 (J² - 1) I + G s(I) dev(J^(-2/3) F Fᵀ), s = 2/G dW/dI
+  /// Computes J sigma = K/2 (J² - 1) I + G s(I) dev(J^(-2/3) F Fᵀ), s = 2/G dW/dI.
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     const Network n(d.deformationGradient);
     return tauOf(n) / n.j;
   }
-  /// d tau = K J² tr h I + G s dev(db) + G ds/dI dI dev b with b = J^(-2/3) F Fᵀ, db = h b + b hᵀ - 2/3 tr h b,
-  /// dI = tr db
+  /// Computes the tangent d tau = K J² tr h I + G s dev(db) + G ds/dI dI dev b with b = J^(-2/3) F Fᵀ, db = h b + b hᵀ
+  /// - 2/3 tr h b, dI = tr db.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3&, const State&) const {
     const Network n(d.deformationGradient);
     return solid::nominalTangent(d.deformationGradient, tauOf(n), [&](const Matrix3& h) {
@@ -53,7 +54,8 @@ struct ArrudaBoyce8 {
       return change;
     });
   }
-  /// c² = (K + 4/3 G (s + 2 I ds/dI)) J / rho_0: at least as large as Uintah's, which is computed with G.
+  /// The wave speed: c² = (K + 4/3 G (s + 2 I ds/dI)) J / rho_0, at least as large as Uintah's, which is computed with
+  /// G.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     const Network n(d.deformationGradient);
     const double shear = shearModulus * (stiffening(n.first) + 2 * n.first * stiffeningSlope(n.first));
@@ -62,7 +64,7 @@ struct ArrudaBoyce8 {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// W as above; I^k - 3^k has the factor I - 3, which is exact at small strains.
+  /// The energy W as above; I^k - 3^k is computed with the factor I - 3, which is exact at small strains.
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     const StrainInvariants strain(d.deformationGradient);
     const double growth = strain.isochoricFirst(), first = 3 + growth;
@@ -91,14 +93,14 @@ struct ArrudaBoyce8 {
     tau.diagonal().array() += bulkModulus / 2 * (n.j * n.j - 1);
     return tau;
   }
-  /// s = sum_k 2 k c_k (I / l²)^(k-1)
+  /// The stiffening factor s = sum_k 2 k c_k (I / l²)^(k-1).
   double stiffening(double first) const {
     const double x = first / (lockingStretch * lockingStretch);
     double sum = 0;
     for (std::size_t k = terms.size(); k > 0; --k) sum = sum * x + 2 * double(k) * terms[k - 1];
     return sum;
   }
-  /// ds/dI
+  /// The derivative ds/dI.
   double stiffeningSlope(double first) const {
     const double square = lockingStretch * lockingStretch, x = first / square;
     double sum = 0;

@@ -9,8 +9,8 @@
 #include "core/base/lanes.hpp"
 
 /// Optional capabilities of constitutive models, beyond the members of every model. A model that names a capability
-/// must have its member, with that signature; a model that has the member must name the capability. Anything else does
-/// not compile.
+/// must have its member, with that signature; a model that has the member must name the capability. Otherwise
+/// compilation fails.
 namespace tushar::mpm::solid::capability {
 
 template <class Variables>
@@ -20,8 +20,8 @@ inline constexpr bool isListOfVariables<const std::array<StateVariable, N>*> = t
 
 // Properties without a member.
 
-/// The stress at the end of a step depends only on F at the end, so that particles do not keep their stress. Offer it
-/// for elastic models in total form without a State.
+/// The stress at the end of a step depends only on F at the end, so that particles need not store their stress. Offer
+/// it for elastic models in total form without a State.
 struct DependsOnDeformationOnly {
   template <class M>
   static consteval bool check() {
@@ -48,8 +48,8 @@ struct FBar {
   }
 };
 
-/// The model uses the position and mass of the particle, and the time, in explicit steps. Offer it where something runs
-/// through the body at a given speed.
+/// The model uses the position and mass of the particle, and the time, in explicit steps. Offer it if the state depends
+/// on a front that moves through the body at a given speed.
 struct PlaceAndTime {
   template <class M>
   static consteval bool check() {
@@ -93,8 +93,9 @@ struct Vectorized {
   }
 };
 
-/// dP/dF, Pa, of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; row 3 i + J, column 3 k + L. It
-/// must be the derivative of what updateStress makes of the state at the start of the step. Implicit steps need it.
+/// Computes dP/dF [Pa] of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I. Row 3 i + J and column
+/// 3 k + L contain dP_iJ/dF_kL. It must be the derivative of the stress that updateStress computes from the state at
+/// the start of the step. Implicit steps need it.
 struct NominalTangent {
   struct Name {
     int nominalTangent;
@@ -118,8 +119,8 @@ struct NominalTangent {
 
 // Wave speeds.
 
-/// c_b = sqrt(K / rho), m/s, for the artificial viscosity; without it waveSpeed is used. Offer it for solids, whose
-/// shear stiffness makes the fastest wave faster than the bulk wave.
+/// The bulk wave speed c_b = sqrt(K / rho) [m/s] for the artificial viscosity; without it, waveSpeed is used. Intended
+/// for solids, in which the fastest wave is faster than the bulk wave because of the shear stiffness.
 struct BulkSpeed {
   struct Name {
     int bulkSpeed;
@@ -140,7 +141,7 @@ struct BulkSpeed {
   }
 };
 
-/// Speed of the fastest wave for the first time step, m/s; without it waveSpeed at F = I is used. Offer it where
+/// Speed of the fastest wave for the first time step [m/s]; without it, waveSpeed at F = I is used. Offer it where
 /// Uintah's first time step comes from another formula.
 struct InitialWaveSpeed {
   struct Name {
@@ -160,7 +161,7 @@ struct InitialWaveSpeed {
   }
 };
 
-/// Coefficients of the artificial viscosity instead of those of the scene.
+/// Coefficients of the artificial viscosity that replace those of the scene.
 struct OwnViscosity {
   struct Name {
     int ownViscosity;
@@ -183,8 +184,8 @@ struct OwnViscosity {
 
 // Heat.
 
-/// Constants of the material in addition to those of the model, filled in after the model has been read. Offer it where
-/// the model needs the density, the specific heat or the melting temperature.
+/// Constants of the material in addition to those of the model, set after the model has been read. Intended for models
+/// that need the density, the specific heat or the melting temperature.
 struct ConstantsOfMaterial {
   struct Name {
     int material;
@@ -204,7 +205,7 @@ struct ConstantsOfMaterial {
   }
 };
 
-/// Change of the temperature due to the work of the step, K; `stress` and `state` are those at its end. Offer it for
+/// Change of the temperature due to the work in the step [K]; `stress` and `state` are those at its end. Offer it for
 /// materials that plastic work or compression heats.
 struct TemperatureChange {
   struct Name {
@@ -227,7 +228,7 @@ struct TemperatureChange {
   }
 };
 
-/// Specific heat, J/(kg K), if it is not that of the material.
+/// Specific heat [J/(kg K)], if it differs from that of the material.
 struct HeatCapacity {
   struct Name {
     int heatCapacity;
@@ -246,7 +247,8 @@ struct HeatCapacity {
   }
 };
 
-/// Adds the heat of the artificial viscosity, J/kg, to the State. Without it the viscosity heats nothing, as in Uintah.
+/// Adds the heat of the artificial viscosity [J/kg] to the State. Without it, the viscosity produces no heat, as in
+/// Uintah.
 struct ViscousHeat {
   struct Name {
     int addViscousHeat;
@@ -264,7 +266,8 @@ struct ViscousHeat {
   }
 };
 
-/// Whether a point with F, a stress (Pa) and a temperature (K) is molten: it then fails if the scene has an <erosion>.
+/// Whether a particle with given F, stress [Pa] and temperature [K] is molten: it then fails if the scene has an
+/// <erosion>.
 struct Melting {
   struct Name {
     int isMolten;
@@ -283,8 +286,9 @@ struct Melting {
   }
 };
 
-/// Whether plastic flow in the step has lost its stability; `stress` (Pa) and `state` are those at its end, before
-/// damage. The particle fails then where the scene has an <erosion>. `checksStability`: whether that is possible.
+/// Whether plastic flow in the step has become unstable; `stress` [Pa] and `state` are those at its end, before damage.
+/// The particle then fails if the scene has an <erosion>. `checksStability`: whether the model checks its stability at
+/// all.
 struct Stability {
   struct Name {
     int isUnstable;
@@ -307,7 +311,7 @@ struct Stability {
 
 // Internal variables.
 
-/// Whether particles keep a State, depending on the constants of the model; if not, initialState() is used. Offer it
+/// Whether particles store a State, depending on the constants of the model; if not, initialState() is used. Offer it
 /// where plasticity can be switched off.
 struct OptionalState {
   struct Name {
@@ -325,7 +329,7 @@ struct OptionalState {
   }
 };
 
-/// The number of leading doubles of the State that particles keep, depending on the constants of the model; the others
+/// The number of leading doubles of the State that particles store, depending on the constants of the model; the others
 /// are not set. Offer it where a rare choice of constants needs many more variables.
 struct PartialState {
   struct Name {
@@ -343,8 +347,8 @@ struct PartialState {
   }
 };
 
-/// Radius, m, within which explicit steps take the mean of the State's `p.plasticIncrement` over the particles of the
-/// material, at the end of each step, into its `p.meanPlasticIncrement`; 0 for no mean.
+/// Radius [m] within which explicit steps average the State's `p.plasticIncrement` over the particles of the material,
+/// at the end of each step, into its `p.meanPlasticIncrement`; 0 for no average.
 struct Nonlocal {
   struct Name {
     int nonlocalLength;
@@ -361,7 +365,7 @@ struct Nonlocal {
   }
 };
 
-/// Variables of Uintah's model of the same name that are always 0 in this model, for scenes that save them.
+/// Variables of Uintah's model of the same name that are always 0 in this model; for scenes that save them.
 struct AbsentVariables {
   struct Name {
     int absentVariables;
@@ -380,7 +384,7 @@ struct AbsentVariables {
   }
 };
 
-/// Every capability that a constitutive model can name.
+/// All capabilities that a constitutive model can name.
 using OfModels =
     CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, PlaceAndTime, Vectorized, NominalTangent,
                    BulkSpeed, InitialWaveSpeed, InitialVolumeRatio, InitialStress, OwnViscosity, ConstantsOfMaterial,

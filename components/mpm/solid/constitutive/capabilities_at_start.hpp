@@ -9,9 +9,9 @@ namespace tushar::mpm::solid::capability {
 
 struct DependsOnDeformationOnly;
 
-/// The initial det F of particles, which determines their initial stress through updateStress. They fill their body so
-/// deformed. Without it 1, and no stress unless it names InitialStress. Offer it for materials that may start under
-/// pressure.
+/// The initial det F of particles, which determines their initial stress through updateStress. Particles fill their
+/// body in this deformed state. Without this capability det F is 1, and there is no initial stress unless the model
+/// names InitialStress. Offer it for materials that may have an initial pressure.
 struct InitialVolumeRatio {
   struct Name {
     int initialVolumeRatio;
@@ -29,8 +29,8 @@ struct InitialVolumeRatio {
   }
 };
 
-/// Stress at the start of the run, Pa; without this capability it is 0. Offer it for solids with a fluid under
-/// pressure.
+/// Stress at the start of the run [Pa]; without this capability it is 0. Offer it for solids whose pores contain a
+/// fluid under pressure.
 struct InitialStress {
   struct Name {
     int initialStress;
@@ -51,7 +51,7 @@ struct InitialStress {
   }
 };
 
-/// The State at the start depends on the particle. Offer it for materials whose constants vary within a body.
+/// The initial State depends on the particle. Intended for materials whose constants vary within a body.
 struct StateByParticle {
   template <class M>
   static consteval bool check() {

@@ -4,16 +4,18 @@
 
 namespace tushar::mpm::solid {
 
-/// The optional capabilities of a type, as types of namespace capability. A type lists its own as `T::Capabilities`.
+/// A list of optional capabilities, which are types of namespace capability. A type T lists its own as
+/// `T::Capabilities`.
 ///
-/// A capability has a member template `check<T>()`, whose assertions compare what T names with what T has.
+/// A capability has a member template `check<T>()`, whose assertions compare the capabilities that T lists with the
+/// members that it has.
 template <class... Names>
 struct CapabilityList {
   template <class Capability>
   static constexpr bool contains = (std::same_as<Capability, Names> || ...);
 
-  /// True; otherwise compilation stops with a message about a member of T that contradicts its capabilities. The list
-  /// itself holds all capabilities that a type of this kind may name.
+  /// Always true; otherwise compilation stops with a message about a member of T that contradicts its capabilities. The
+  /// list itself contains all capabilities that a type of this kind may name.
   template <class T>
   static consteval bool check() {
     static_assert(T::Capabilities::areAmong(CapabilityList()),
@@ -26,7 +28,7 @@ struct CapabilityList {
   }
 };
 
-/// Whether T names a capability.
+/// Whether T lists a capability.
 template <class T, class Capability>
 inline constexpr bool providesCapability = T::Capabilities::template contains<Capability>;
 

@@ -18,8 +18,8 @@ struct CnhMms {
   static constexpr std::string_view name = "cnh_mms";
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
 
   static const input::Schema<CnhMms>& schema() {
     static const input::Schema<CnhMms> schema =
@@ -28,7 +28,7 @@ struct CnhMms {
             .required("shear_modulus", &CnhMms::shearModulus, "Pa", "G", input::positive());
     return schema;
   }
-  /// Lamé's first constant, Pa.
+  /// Lamé's first constant [Pa].
   double lambda() const { return bulkModulus - 2.0 / 3.0 * shearModulus; }
 
   State initialState() const { return {}; }
@@ -39,7 +39,7 @@ struct CnhMms {
     stress.diagonal().array() += lambda() * std::log(j) - shearModulus;
     return stress / j;
   }
-  /// d tau = lambda tr h I + G (h B + B hᵀ) with B = F Fᵀ
+  /// Computes the tangent d tau = lambda tr h I + G (h B + B hᵀ) with B = F Fᵀ.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
     const Matrix3& f = d.deformationGradient;
     State none;
@@ -54,7 +54,7 @@ struct CnhMms {
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
   }
-  /// 0 as in Uintah, so that StrainEnergy can be compared.
+  /// Returns 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 };
 static_assert(ConstitutiveModel<CnhMms>);

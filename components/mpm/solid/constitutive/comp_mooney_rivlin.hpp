@@ -24,8 +24,8 @@ struct CompMooneyRivlin {
   static constexpr std::string_view name = "comp_mooney_rivlin";
   static constexpr bool strainEnergyIsRate = false;
 
-  double c1 = 0, c2 = 0;    ///< Pa
-  double poissonRatio = 0;  ///< nu, 1
+  double c1 = 0, c2 = 0;    ///< c1 and c2 [Pa]
+  double poissonRatio = 0;  ///< Poisson's ratio nu [1]
 
   static const input::Schema<CompMooneyRivlin>& schema() {
     static const input::Schema<CompMooneyRivlin> schema =
@@ -58,8 +58,7 @@ struct CompMooneyRivlin {
       return Matrix3(2 * change);
     });
   }
-  /// The wave speed of the linear material, as in Uintah, with the modulus 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 +
-  /// C2).
+  /// The wave speed at small strains, as in Uintah, with the modulus 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt(4 * (c1 + c2) * (1 - poissonRatio) / ((1 - 2 * poissonRatio) * initialDensity));
   }
@@ -80,7 +79,7 @@ struct CompMooneyRivlin {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(4 * (c1 + c2 * Invariants(d.deformationGradient).second) / initialDensity);
   }
-  /// W as above, where c3 (1/I3² - 1) cancels the terms linear in the strain.
+  /// The energy W as above; its part c3 (1/I3² - 1) cancels the terms linear in the strain.
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     return strainEnergyDensity(d.deformationGradient);
   }

@@ -24,10 +24,10 @@ struct CompNeoHook {
   static constexpr std::string_view name = "comp_neo_hook";
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
   bool startsUnderPressure = false;
-  double initialPressure = 0;  ///< Pa
+  double initialPressure = 0;  ///< initial pressure [Pa]
 
   static const input::Schema<CompNeoHook>& schema() {
     static const input::Schema<CompNeoHook> schema = [] {
@@ -49,7 +49,7 @@ struct CompNeoHook {
   State initialState() const { return {}; }
   double initialVolumeRatio() const { return startsUnderPressure ? volumeRatioUnder(initialPressure, bulkModulus) : 1; }
 
-  /// J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ)
+  /// Computes J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ).
   template <class Real>
   TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f) const {
     const Real j = solid::determinant(f);
@@ -63,7 +63,7 @@ struct CompNeoHook {
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     return kirchhoffStress(d.deformationGradient) / d.deformationGradient.determinant();
   }
-  /// d tau = K J² tr h I + G dev(h b + b hᵀ - 2/3 tr h b) with b = J^(-2/3) F Fᵀ
+  /// Computes the tangent d tau = K J² tr h I + G dev(h b + b hᵀ - 2/3 tr h b) with b = J^(-2/3) F Fᵀ.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3&, const State&) const {
     const Matrix3& f = d.deformationGradient;
     const double j = f.determinant();

@@ -11,7 +11,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Stops compilation, with a message, if M lacks a constant or a variable that every model has.
+/// Stops compilation, with a message, if M lacks a constant or a variable that every model must have.
 template <class M>
 consteval bool checkDescription() {
   static_assert(
@@ -34,7 +34,7 @@ consteval bool checkDescription() {
   return true;
 }
 
-/// Stops compilation, with a message, if the variables of a State are not all named.
+/// Stops compilation, with a message, if not all variables of a State have names.
 template <class M>
 consteval bool checkState() {
   static_assert(
@@ -63,7 +63,7 @@ consteval bool checkState() {
   return true;
 }
 
-/// Stops compilation, with a message, if M lacks a function that every model has.
+/// Stops compilation, with a message, if M lacks a function that every model must have.
 template <class M>
 consteval bool checkFunctions() {
   using State = typename M::State;
@@ -84,7 +84,7 @@ consteval bool checkFunctions() {
   return true;
 }
 
-/// True; otherwise compilation stops with a message that says what is missing in M.
+/// Always true; otherwise compilation stops with a message that names the missing members of M.
 template <class M>
 consteval bool isConstitutiveModel() {
   constexpr bool hasState = requires { typename M::State; };
@@ -104,13 +104,13 @@ consteval bool isConstitutiveModel() {
 /// - `Capabilities`: what the model can do beyond the members below; capabilities.hpp has them all.
 /// - `name`: the type in a scene.  `schema()`: the constants that a scene gives, with their units.
 /// - `initialState()`: the State of a particle at the start of the run.
-/// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at the start of the step; brings the State to
+/// - `updateStress`: Cauchy stress [Pa] at the end of the step from that at the start; also updates the State to
 ///   the end of the step.
-/// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run, kg/m^3.
-/// - `strainEnergyDensity`: J per m^3 of the volume at the start of the run; a hyperelastic model returns W(F), any
+/// - `waveSpeed`: speed of the fastest elastic wave [m/s] for an initial density [kg/m^3].
+/// - `strainEnergyDensity`: energy per initial volume [J/m^3]; a hyperelastic model returns W(F), any
 ///   other the increment of the step (`strainEnergyIsRate` true).
 ///
-/// Use it to assert, not to choose an overload: a type that is no model stops compilation with a sentence.
+/// Use it in assertions, not to select an overload: a type that is not a model stops compilation with a message.
 template <class M>
 concept ConstitutiveModel = isConstitutiveModel<M>();
 

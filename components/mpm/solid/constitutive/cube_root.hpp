@@ -8,7 +8,8 @@
 
 namespace tushar::mpm::solid {
 
-/// x^(-2/3) of a positive normal number, accurate to one or two units in the last place, much faster than std::cbrt.
+/// Returns x^(-2/3) for a positive normal number, accurate to one or two units in the last place; much faster than
+/// std::cbrt.
 ///
 /// A first guess at x^(-1/3) from the exponent, good to 4 %, then two steps y += y (r/3 + 2 r²/9 + 14 r³/81) with
 /// r = 1 - x y³, each of which raises the error to its fourth power.

@@ -29,11 +29,11 @@ struct GursonPlastic;
 template <bool isHp>
 struct ElasticPlastic {
   struct State {
-    double plasticStrain;                                        ///< 1
-    double plasticStrainRate;                                    ///< 1/s
-    double strainRate;                                           ///< 1/s
-    double energy;                                               ///< J/kg
-    std::array<Tensor, MaxwellDeviator::greatestCount> maxwell;  ///< s_j of the Maxwell elements, Pa
+    double plasticStrain;                                        ///< plastic strain [1]
+    double plasticStrainRate;                                    ///< plastic strain rate [1/s]
+    double strainRate;                                           ///< strain rate [1/s]
+    double energy;                                               ///< energy [J/kg]
+    std::array<Tensor, MaxwellDeviator::greatestCount> maxwell;  ///< s_j of the Maxwell elements [Pa]
   };
   using Capabilities = CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial,
                                       capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed,
@@ -41,8 +41,8 @@ struct ElasticPlastic {
                                       capability::Melting, capability::Stability, capability::PartialState>;
   static constexpr std::array<StateVariable, 9> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
-       {"p.plasticStrainRate", "1/s", "equivalent plastic strain rate in the last step"},
-       {"p.strainRate", "1/s", "equivalent strain rate in the last step"},
+       {"p.plasticStrainRate", "1/s", "equivalent plastic strain rate in the latest step"},
+       {"p.strainRate", "1/s", "equivalent strain rate in the latest step"},
        {"p.energy", "J/kg", "work of the stresses since the start"},
        {"p.sigmaDev0", "Pa", "stress deviator of the Maxwell element 1", 9},
        {"p.sigmaDev1", "Pa", "stress deviator of the Maxwell element 2", 9},
@@ -54,24 +54,30 @@ struct ElasticPlastic {
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double bulkModulus = 0;           ///< K, Pa
-  double shearModulus = 0;          ///< G, Pa
-  double heatedShare = 0.9;         ///< heated fraction of the plastic work: the Taylor-Quinney coefficient, 1
-  double initialTemperature = 294;  ///< T_0 of the equation of state, K
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
+  /// Taylor-Quinney coefficient, the fraction of the plastic work that becomes heat [1]
+  double heatedShare = 0.9;
+  double initialTemperature = 294;  ///< T_0 in the equation of state [K]
   DeviatorModel deviatorModel;
   FlowModel flow;
   EquationOfState equationOfState;
   ShearModel shear;
   MeltingModel melting;
-  bool computesHeat = false;  ///< otherwise the specific heat is that of the material
+  bool computesHeat = false;  ///< whether the model computes the specific heat; otherwise that of the material is used
   SpecificHeatModel specificHeat;
-  std::variant<VonMisesYield, GursonYield> yieldCondition;    ///< with GursonYield the model is GursonPlastic
-  StabilityCheck stability;                                   ///< what flow makes particles fail
-  bool poresEvolve = true;                                    ///< this and the following: only with GursonYield
-  double initialPorosity = 0.002, porosityDeviation = 0.002;  ///< f at the start, mean and standard deviation, 1
-  bool porositySpreads = false;                               ///< f at the start is normally distributed
-  double nucleating = 0.1;                                    ///< f_N, 1
-  double nucleationStrain = 0.3, nucleationDeviation = 0.1;   ///< e_N and s_N, 1
+  /// Yield condition; the model is GursonPlastic if it is GursonYield.
+  std::variant<VonMisesYield, GursonYield> yieldCondition;
+  StabilityCheck stability;  ///< which loss of stability makes particles fail
+  /// Whether porosity evolves. This member and the following ones are used only with GursonYield.
+  bool poresEvolve = true;
+  /// Mean and standard deviation of the initial porosity f [1].
+  double initialPorosity = 0.002, porosityDeviation = 0.002;
+  /// Whether the initial porosity f is normally distributed.
+  bool porositySpreads = false;
+  double nucleating = 0.1;  ///< f_N, volume fraction of void-nucleating particles [1]
+  /// e_N and s_N, mean and standard deviation of the nucleation strain [1]
+  double nucleationStrain = 0.3, nucleationDeviation = 0.1;
 
   static const input::Schema<ElasticPlastic>& schema() {
     static const input::Schema<ElasticPlastic> schema = makeSchema();
@@ -93,8 +99,8 @@ struct ElasticPlastic {
     state.energy += stressWork(d, oldStress, stress) / material.density;
     return stress;
   }
-  /// d tau = J (tr h sigma + W sigma - sigma W + R (ds + dp I) Rᵀ): W the spin that h adds to R, ds and dp the changes
-  /// of deviator and mean stress in the axes that rotate with the material.
+  /// Computes the tangent d tau = J (tr h sigma + W sigma - sigma W + R (ds + dp I) Rᵀ): W the spin that h adds to R,
+  /// ds and dp the changes of deviator and mean stress in the axes that rotate with the material.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State& old) const {
     const Matrix3& f = d.deformationGradient;
     const Corotated step(d, oldStress);
@@ -192,7 +198,7 @@ struct ElasticPlastic {
     });
     return tags;
   }
-  /// Accepts tags of Uintah that have no effect with radial return, and choices with only one available option.
+  /// Accepts tags of Uintah that have no effect with radial return, and choices for which only one option is available.
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
         .ignored("coeff_thermal_expansion", "the equation of state includes the temperature")
@@ -222,7 +228,7 @@ struct ElasticPlastic {
              "with <erosion>, particles fail where plastic flow loses its stability; none if left out", false);
   }
 
-  /// Tags that only the yield condition gurson uses.
+  /// Declares tags that are used only by the yield condition gurson.
   static void declarePores(input::Schema<ElasticPlastic>& tags) {
     using Self = ElasticPlastic;
     tags.value("evolve_porosity", &Self::poresEvolve, true, "1", "for gurson: pores grow, close and nucleate")
@@ -258,7 +264,7 @@ struct ElasticPlastic {
     return {state.plasticStrain, state.strainRate, c.temperature, modulus, c.density, c.meltTemperature};
   }
   const MaxwellDeviator* maxwell() const { return std::get_if<MaxwellDeviator>(&deviatorModel); }
-  /// The relaxed deviator after a step without strain, in the rotated axes, Pa.
+  /// The relaxed deviator after a step without strain, in the rotated axes [Pa].
   Matrix3 oldDeviator(const Corotated& step, const Deformation& d, const State& state) const {
     if (!maxwell()) return deviator(step.stress);
     Matrix3 sum = Matrix3::Zero();
@@ -278,7 +284,8 @@ struct ElasticPlastic {
     return state.temperature > state.meltTemperature || state.shearModulus <= 0;
   }
 
-  /// Returns the trial stress deviator to the yield surface; the result is the rate of the plastic strain, 1/s.
+  /// Returns the trial stress deviator in `stress` to the yield surface; the result is the rate of the plastic strain
+  /// [1/s].
   double yield(const FlowState& start, double timeStep, Matrix3& stress, State& state) const {
     if (isFluid(start)) {
       stress.setZero();
@@ -343,7 +350,7 @@ struct ElasticPlastic {
     const VolumeState state = volumeState(d, old, energy);
     return std::visit([&](const auto& model) { return model.meanStress(state); }, equationOfState);
   }
-  /// Derivatives of the mean stress with respect to the dilatation of the step and to ln J, Pa.
+  /// Derivatives of the mean stress with respect to the dilatation of the step and to ln J [Pa].
   std::pair<double, double> meanStressSlopes(const Deformation& d, double old, double energy) const {
     const auto at = [&](double dilated, double swollen) {
       VolumeState state = volumeState(d, old, energy);

@@ -6,10 +6,10 @@ namespace tushar::mpm::solid {
 
 /// Thermal expansion of a body.
 struct ThermalExpansion {
-  double coefficient = 0;           ///< alpha, of lengths, 1/K
-  double referenceTemperature = 0;  ///< T_0, K
+  double coefficient = 0;           ///< alpha, coefficient of linear expansion [1/K]
+  double referenceTemperature = 0;  ///< reference temperature T_0 [K]
 
-  /// J_T = (1 + alpha (T - T_0))^3
+  /// The relative volume of a free body, J_T = (1 + alpha (T - T_0))^3.
   double volume(double temperature) const {
     const double stretch = 1 + coefficient * (temperature - referenceTemperature);
     return stretch * stretch * stretch;
@@ -17,12 +17,12 @@ struct ThermalExpansion {
 };
 
 /// A neo-Hookean model whose mean stress, K/2 (J - 1/J), is reduced by that of free thermal expansion, K/2 (J_T -
-/// 1/J_T), so that a free body is at rest at J = J_T; Uintah's `linear_thermal_expansion_coef`. The temperature is that
-/// of the start of the step. Explicit steps only: there is no tangent.
+/// 1/J_T), so that a free body is at rest at J = J_T; Uintah's `linear_thermal_expansion_coef`. The temperature is
+/// taken at the start of the step. For explicit steps only: there is no tangent.
 template <ConstitutiveModel M>
 class Expanding : public ModelOf<M> {
  public:
-  /// `bulkModulus` is K, Pa.
+  /// `bulkModulus` is K [Pa].
   Expanding(const M& model, double bulkModulus, const ThermalExpansion& expansion)
       : ModelOf<M>(model), bulk_modulus_(bulkModulus), expansion_(expansion) {}
 

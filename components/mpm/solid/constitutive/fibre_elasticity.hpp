@@ -22,17 +22,17 @@ namespace tushar::mpm::solid {
 struct FibreElasticity {
   enum class Rubber { mooneyRivlin, verondaWestmann };
 
-  double bulkModulus = 0;                ///< K, Pa
-  double c1 = 0, c2 = 0, c3 = 0;         ///< Pa; for VerondaWestmann c2 has no unit
-  double c4 = 0;                         ///< 1
-  double c5 = 0;                         ///< Pa
-  double straight = 1;                   ///< l*, 1
+  double bulkModulus = 0;                ///< bulk modulus K [Pa]
+  double c1 = 0, c2 = 0, c3 = 0;         ///< constants of the matrix [Pa]; for VerondaWestmann, c2 is dimensionless
+  double c4 = 0;                         ///< c4 [1]
+  double c5 = 0;                         ///< c5 [Pa]
+  double straight = 1;                   ///< stretch l* at which fibres are straight [1]
   std::array<double, 3> fibre{1, 0, 0};  ///< a, along x, y, z
   Rubber rubber = Rubber::mooneyRivlin;
 
  protected:
   struct Point {
-    Matrix3 b;       ///< B'
+    Matrix3 b;       ///< B', isochoric left Cauchy-Green tensor
     Matrix3 fibres;  ///< a aᵀ
     double j, first, stretch;
 
@@ -46,7 +46,7 @@ struct FibreElasticity {
     }
   };
 
-  /// A member as one of the Model that inherits it.
+  /// Converts a pointer to a member of this class into a pointer to a member of `Model`, which inherits this class.
   template <class Model, class T>
   static T Model::*in(T FibreElasticity::*member) {
     return member;
@@ -72,8 +72,8 @@ struct FibreElasticity {
     refuseSwitch(tags, "failure_option", "neither the fibres nor the matrix fail");
   }
 
-  /// tau = 2 dev((w1 + I1 w2) B' - w2 B'²) + g dev(a a) + K ln J I, Pa: w1 and w2 the derivatives of W_m by I1 and I2,
-  /// g = l dW_f/dl, a along the deformed fibre
+  /// Computes tau = 2 dev((w1 + I1 w2) B' - w2 B'²) + g dev(a a) + K ln J I [Pa]; w1 and w2 are the derivatives of W_m
+  /// by I1 and I2, g = l dW_f/dl, and a is the direction of the deformed fibre.
   Matrix3 elasticStress(const Point& at) const {
     const RubberSlopes w = rubberSlopes(at.first);
     const Matrix3 matrix = (w.byFirst + at.first * w.bySecond) * at.b - w.bySecond * at.b * at.b;
@@ -81,7 +81,7 @@ struct FibreElasticity {
     stress.diagonal().array() += bulkModulus * std::log(at.j);
     return stress;
   }
-  /// The change of tau when F changes by h F, Pa.
+  /// The change of tau when F changes by h F [Pa].
   Matrix3 elasticChange(const Point& at, const Matrix3& h) const {
     const RubberSlopes w = rubberSlopes(at.first);
     const double g = fibreForce(at.stretch), slope = fibreSlope(at.stretch);
@@ -95,20 +95,20 @@ struct FibreElasticity {
     change.diagonal().array() += bulkModulus * h.trace();
     return change;
   }
-  /// P-wave modulus of the undeformed body, Pa.
+  /// P-wave modulus of the undeformed body [Pa].
   double initialModulus() const {
     const RubberSlopes w = rubberSlopes(3);
     return bulkModulus + 8.0 / 3.0 * (w.byFirst + w.bySecond) + fibreSlope(1);
   }
-  /// A bound, Pa: of the matrix, 4/3 of twice w1 + w2 I1/3 times I1/3, and 16/9 I1² d²W_m/dI1², and of the fibres
-  /// dg/dl l + |g|.
+  /// An upper bound on the P-wave modulus [Pa]: K, plus 8/9 I1 (w1 + w2 I1/3) + 16/9 I1² d²W_m/dI1² of the matrix, plus
+  /// l dg/dl + |g| of the fibres.
   double largestModulus(const Point& at) const {
     const RubberSlopes w = rubberSlopes(at.first);
     const double matrix = 8.0 / 3.0 * (w.byFirst + w.bySecond * at.first / 3) * at.first / 3;
     const double fibres = fibreSlope(at.stretch) * at.stretch + std::abs(fibreForce(at.stretch));
     return bulkModulus + matrix + fibres + 16.0 / 9.0 * w.curvature * at.first * at.first;
   }
-  /// W, J/m^3
+  /// The energy W [J/m^3].
   double elasticEnergy(const Matrix3& f) const {
     const StrainInvariants strain(f);
     const double logarithm = 0.5 * std::log1p(strain.volume), fibres = fibreEnergy(Point(*this, f).stretch);
@@ -117,7 +117,7 @@ struct FibreElasticity {
   }
 
  private:
-  /// Derivatives of W_m by I1 and I2, and its second one by I1, Pa.
+  /// First derivatives of W_m by I1 and I2, and its second derivative by I1 [Pa].
   struct RubberSlopes {
     double byFirst, bySecond, curvature;
   };
@@ -126,7 +126,7 @@ struct FibreElasticity {
     const double growing = c1 * c2 * std::exp(c2 * (first - 3));
     return {growing, -0.5 * c1 * c2, c2 * growing};
   }
-  /// W_m of I1 - 3 and I2 - 3, J/m^3
+  /// The energy W_m as a function of I1 - 3 and I2 - 3 [J/m^3].
   double rubberEnergy(double first, double second) const {
     if (rubber == Rubber::mooneyRivlin) return c1 * first + c2 * second;
     return c1 * std::expm1(c2 * first) - 0.5 * c1 * c2 * second;
@@ -136,22 +136,22 @@ struct FibreElasticity {
     if (!given) return diagnostics.error(element, "missing tag <direction_of_symm> (along the fibres at the start)");
     const auto value = input::parse<Vec3>(given->text());
     if (!value.problem.empty()) return diagnostics.error(*given, value.problem);
-    if (value.value->norm() == 0) return diagnostics.error(*given, "must not be 0");
+    if (value.value->norm() == 0) return diagnostics.error(*given, "is 0, which is not a direction");
     read.fibre = {(*value.value)[0], (*value.value)[1], (*value.value)[2]};
   }
 
   double c6() const { return c3 * std::expm1(c4 * (straight - 1)) - c5 * straight; }
-  /// g, Pa
+  /// The fibre force g [Pa].
   double fibreForce(double l) const {
     if (l < 1) return 0;
     return l < straight ? c3 * std::expm1(c4 * (l - 1)) : c5 * l + c6();
   }
-  /// dg/dl, Pa
+  /// The derivative dg/dl [Pa].
   double fibreSlope(double l) const {
     if (l < 1) return 0;
     return l < straight ? c3 * c4 * std::exp(c4 * (l - 1)) : c5;
   }
-  /// W_f = integral of g/l from 1, J/m^3, by the exponential integral.
+  /// The fibre energy W_f = integral of g/l from 1 [J/m^3], by the exponential integral.
   double fibreEnergy(double l) const {
     if (l <= 1) return 0;
     const double end = std::min(l, straight);

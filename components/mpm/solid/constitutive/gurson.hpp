@@ -7,19 +7,19 @@
 
 namespace tushar::mpm::solid {
 
-/// `elastic_plastic` with the yield condition `gurson`, for porous metals. Pores grow with the plastic dilatation, df =
-/// (1 - f) dt + A de_p in tension, A = f_N exp(-((e_p - e_N)/s_N)²/2) / (s_N (2 pi)^(1/2)); Chu & Needleman, J. Eng.
-/// Mater. Technol. 102 (1980) 249. The equation of state is that of the volume without plastic dilatation.
+/// `elastic_plastic` with the yield condition `gurson`, for porous metals. The porosity grows with the plastic
+/// dilatation, df = (1 - f) dt + A de_p in tension, A = f_N exp(-((e_p - e_N)/s_N)²/2) / (s_N (2 pi)^(1/2)); Chu &
+/// Needleman, J. Eng. Mater. Technol. 102 (1980) 249. The equation of state uses the volume without plastic dilatation.
 struct GursonPlastic {
   using Base = ElasticPlasticHp;
   struct State {
-    double plasticStrain;      ///< plastic strain of the metal between the pores, 1
-    double plasticStrainRate;  ///< 1/s
-    double strainRate;         ///< 1/s
-    double energy;             ///< J/kg
-    double porosity;           ///< f, 1
-    double dilatation;         ///< plastic, 1
-    double plasticWork;        ///< of the step, J/m^3
+    double plasticStrain;      ///< plastic strain of the metal between the pores [1]
+    double plasticStrainRate;  ///< plastic strain rate [1/s]
+    double strainRate;         ///< strain rate [1/s]
+    double energy;             ///< energy [J/kg]
+    double porosity;           ///< porosity f [1]
+    double dilatation;         ///< plastic dilatation [1]
+    double plasticWork;        ///< plastic work in the step [J/m^3]
   };
   using Capabilities = CapabilityList<capability::BulkSpeed, capability::InitialWaveSpeed,
                                       capability::TemperatureChange, capability::HeatCapacity, capability::ViscousHeat,
@@ -33,9 +33,9 @@ struct GursonPlastic {
        Base::stateVariables[3],
        {"p.porosity", "1", "porosity"},
        {"p.plasticDilatation", "1", "relative plastic change of volume"},
-       {"p.plasticWork", "J/m^3", "plastic work in the last step"}}};
+       {"p.plasticWork", "J/m^3", "plastic work in the latest step"}}};
 
-  Base base;  ///< the model of the metal without pores
+  Base base;  ///< model of the metal without pores
 
   static const input::Schema<GursonPlastic>& schema() {
     static const input::Schema<GursonPlastic> schema(name, "Porous metals: see elastic_plastic_hp.");
@@ -73,7 +73,7 @@ struct GursonPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// Due to plastic work and to the change of volume, K.
+  /// Temperature change due to plastic work and to the change of volume [K].
   double temperatureChange(const Deformation& d, const Matrix3&, const State& state) const {
     const VolumeState volume = base.volumeState(d, 0, 0);
     const double byVolume = std::visit([&](const auto& model) { return model.heating(volume); }, base.equationOfState);
@@ -93,14 +93,14 @@ struct GursonPlastic {
   static Base::State baseOf(const State& state) {
     return {state.plasticStrain, state.plasticStrainRate, state.strainRate, state.energy, {}};
   }
-  /// Rate of pore nucleation per plastic strain, 1.
+  /// Nucleated porosity per plastic strain [1].
   double nucleation(double strain) const {
     if (base.nucleationDeviation == 0) return 0;
     const double away = (strain - base.nucleationStrain) / base.nucleationDeviation;
     return base.nucleating / (base.nucleationDeviation * std::sqrt(2 * std::numbers::pi)) *
            std::exp(-0.5 * away * away);
   }
-  /// Returns the trial deviator to the surface; the result is the mean stress, Pa.
+  /// Returns the trial deviator to the yield surface; the result is the mean stress [Pa].
   double yield(const Deformation& d, double oldMean, const FlowState& start, Matrix3& shear, State& state) const {
     const auto meanStress = [&](double dilatation) {
       VolumeState volume = base.volumeState(d, oldMean, state.energy);

@@ -34,7 +34,7 @@ struct HypoElastic : IsotropicModuli {
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State&) const {
     return oldStress + stressOf(rateOfDeformation(d)) * d.timeStep;
   }
-  /// d tau = J (tr h sigma + 2 G dev e + K tr e I) with e = sym(h F F_old^-1)
+  /// Computes the tangent d tau = J (tr h sigma + 2 G dev e + K tr e I) with e = sym(h F F_old^-1).
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
     const Matrix3& f = d.deformationGradient;
     const Matrix3 step = f * d.oldDeformationGradient.inverse();
@@ -46,7 +46,7 @@ struct HypoElastic : IsotropicModuli {
       return Matrix3(j * (h.trace() * stress + stressOf(change)));
     });
   }
-  /// D : (mean stress) J dt
+  /// Strain energy of the step: D : (mean stress) J dt.
   double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
                              const State&) const {
     const Matrix3 mean = 0.5 * (oldStress + stress);
@@ -54,7 +54,7 @@ struct HypoElastic : IsotropicModuli {
   }
 
  private:
-  /// 2 G dev e + K tr e I
+  /// The stress 2 G dev e + K tr e I.
   Matrix3 stressOf(const Matrix3& strain) const {
     Matrix3 stress = 2 * shearModulus * strain;
     stress.diagonal().array() += (bulkModulus - 2.0 / 3.0 * shearModulus) * strain.trace();

@@ -19,9 +19,9 @@ struct IdealGas {
   static constexpr ArtificialViscosity ownViscosity{0, 6.25};
 
   MaterialConstants material;
-  double ratio = 0;              ///< gamma, 1
-  double specificHeat = 0;       ///< c_v, J/(kg K)
-  double referencePressure = 0;  ///< Pa
+  double ratio = 0;              ///< gamma [1]
+  double specificHeat = 0;       ///< specific heat c_v [J/(kg K)]
+  double referencePressure = 0;  ///< reference pressure [Pa]
 
   static const input::Schema<IdealGas>& schema() {
     static const input::Schema<IdealGas> schema =
@@ -36,7 +36,7 @@ struct IdealGas {
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     return (referencePressure - pressure(d)) * Matrix3::Identity();
   }
-  /// c² = gamma (gamma - 1) c_v T
+  /// The wave speed: c² = gamma (gamma - 1) c_v T.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(ratio * (ratio - 1) * specificHeat * d.temperature);
   }
@@ -44,7 +44,7 @@ struct IdealGas {
     const double growth = d.deformationGradient.determinant() / d.oldDeformationGradient.determinant() - 1;
     return -(ratio - 1) * d.temperature * growth;
   }
-  /// 0 as in Uintah, so that StrainEnergy can be compared.
+  /// Returns 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:

@@ -6,13 +6,13 @@
 
 namespace tushar::mpm::solid {
 
-/// The J of K/2 (J - 1/J) = -p: that of a neo-Hookean body under a pressure, Pa.
+/// Solves K/2 (J - 1/J) = -p for J: the relative volume of a neo-Hookean body under a pressure [Pa].
 inline double volumeRatioUnder(double pressure, double bulkModulus) {
   const double q = pressure / bulkModulus;
   return std::sqrt(1 + q * q) - q;
 }
 
-/// The tags of a body that starts under pressure.
+/// Declares the tags for the initial pressure of a body.
 template <class M>
 void addInitialPressure(input::Schema<M>& tags) {
   tags.value("useInitialStress", &M::startsUnderPressure, false, "1",

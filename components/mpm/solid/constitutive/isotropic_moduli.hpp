@@ -11,16 +11,16 @@ namespace tushar::mpm::solid {
 /// A State without variables.
 struct NoState {};
 
-/// Base of models whose waves are those of linear elasticity at the density of the step, rho = rho_0 / det F.
+/// Base of models whose waves are those of linear elasticity at the current density, rho = rho_0 / det F.
 struct IsotropicModuli {
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
 
-  /// c = sqrt((K + 4/3 G) / rho)
+  /// Wave speed, c = sqrt((K + 4/3 G) / rho).
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const NoState&) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
   }
-  /// c_b = sqrt(K / rho)
+  /// Bulk wave speed, c_b = sqrt(K / rho).
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const NoState&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }

@@ -11,12 +11,12 @@
 namespace tushar::mpm::solid {
 
 /// An explosive that burns where it is compressed, dF/dt = G (1 - F) p^b, JWL++: Souers & al., Propellants,
-/// Explos., Pyrotech. 25 (2000) 54. A particle burns in steps that it starts above an ignition pressure. sigma = -p I,
-/// with the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
+/// Explos., Pyrotech. 25 (2000) 54. A particle burns in steps at whose start its pressure exceeds an ignition pressure.
+/// sigma = -p I, where p combines the pressures of Murnaghan and of Jones, Wilkins and Lee (see mixedPressure).
 struct JwlppMpm {
   struct State {
-    double burned;  ///< F, 1
-    double growth;  ///< of F in the last step, 1
+    double burned;  ///< F, burned fraction [1]
+    double growth;  ///< growth of F in the latest step [1]
   };
   using Capabilities =
       CapabilityList<capability::IgnoresTemperature, capability::ConstantsOfMaterial, capability::InitialVolumeRatio,
@@ -28,15 +28,15 @@ struct JwlppMpm {
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double ignitionPressure = 0;               ///< Pa
-  double compressibility = 0, exponent = 0;  ///< kappa, 1/Pa, and n, 1, of the explosive
-  double a = 0, b = 0, c = 0;                ///< A, B, C of the products, Pa
-  double r1 = 0, r2 = 0, omega = 0;          ///< R1, R2, omega of the products, 1
-  double rate = 0;                           ///< G, 1/(s Pa^b)
-  double power = 0;                          ///< b, 1
-  double greatestFraction = 1;               ///< of F, 1
+  double ignitionPressure = 0;               ///< ignition pressure [Pa]
+  double compressibility = 0, exponent = 0;  ///< kappa [1/Pa] and n [1] of the explosive
+  double a = 0, b = 0, c = 0;                ///< A, B, C of the products [Pa]
+  double r1 = 0, r2 = 0, omega = 0;          ///< R1, R2, omega of the products [1]
+  double rate = 0;                           ///< rate G [1/(s Pa^b)]
+  double power = 0;                          ///< power b [1]
+  double greatestFraction = 1;               ///< largest value of F [1]
   bool startsUnderPressure = false;
-  double initialPressure = 0;  ///< Pa
+  double initialPressure = 0;  ///< initial pressure [Pa]
 
   static const input::Schema<JwlppMpm>& schema() {
     static const input::Schema<JwlppMpm> schema = makeSchema();
@@ -55,26 +55,26 @@ struct JwlppMpm {
     state.growth = state.burned - before;
     return -pressure(state.burned, d.deformationGradient.determinant()) * Matrix3::Identity();
   }
-  /// Wave speed of the unburned explosive, m/s: J = 1 at the density of the material.
+  /// Wave speed of the unburned explosive [m/s] at J = 1, where its density is that of the material.
   double initialWaveSpeed(double initialDensity) const { return speed(material.density / initialDensity); }
-  /// Wave speed of the unburned explosive, m/s, even after it has burned, as in Uintah; waves in the products may be
+  /// Wave speed of the unburned explosive [m/s], even after it has burned, as in Uintah; waves in the products may be
   /// three times as fast.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
     return speed(d.deformationGradient.determinant());
   }
-  /// c_b² = J / (kappa rho_0), as in Uintah.
+  /// Bulk wave speed: c_b² = J / (kappa rho_0), as in Uintah.
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(d.deformationGradient.determinant() / (compressibility * initialDensity));
   }
-  /// 0 as in Uintah, so that StrainEnergy can be compared.
+  /// Returns 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:
   double pressure(double fraction, double j) const { return mixedPressure(explosive(), products(), fraction, j); }
   double speed(double j) const { return j * std::sqrt(explosive().stiffness(j) / material.density); }
 
-  /// F at the end of a step in which J grows at a constant rate, to 1e-9: with u = -ln(1 - F), du/dt = G p^b, by the
-  /// fourth-order method of Kutta, Z. Math. Phys. 46 (1901) 435, with steps halved as often as needed.
+  /// Computes F at the end of a step in which J grows at a constant rate, to 1e-9: with u = -ln(1 - F), du/dt = G p^b,
+  /// by the fourth-order method of Kutta, Z. Math. Phys. 46 (1901) 435, with steps halved as often as needed.
   double burn(double before, const Deformation& d) const {
     constexpr double wanted = 1e-9, done = 30;  // exp(-done) of it is left: nothing
     const double start = d.oldDeformationGradient.determinant();

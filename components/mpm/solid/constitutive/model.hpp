@@ -16,31 +16,32 @@ namespace tushar::mpm::solid {
 /// Largest number of particles in one call of a constitutive model.
 inline constexpr int stressGroup = 64;
 
-/// Consecutive particles in memory, and the results at the end of a step that the caller requests.
+/// Particles that are consecutive in memory, and pointers to the requested results at the end of a step.
 struct StressPoints {
   int count = 0;
-  double timeStep = 0;  ///< s
+  double timeStep = 0;  ///< time step [s]
   const Matrix3* oldDeformationGradient = nullptr;
   const Matrix3* deformationGradient = nullptr;
-  const Matrix3* velocityGradient = nullptr;  ///< 1/s
-  const double* temperature = nullptr;        ///< K; null if every model ignores it
-  const Matrix3* oldStress = nullptr;         ///< Pa; null if particles do not keep it
-  Matrix3* stress = nullptr;                  ///< Pa; null if not wanted
-  double* state = nullptr;                    ///< in and out; stateStride numbers for each particle
+  const Matrix3* velocityGradient = nullptr;  ///< velocity gradient [1/s]
+  const double* temperature = nullptr;        ///< temperature [K]; null if no model uses it
+  const Matrix3* oldStress = nullptr;         ///< old stress [Pa]; null if particles do not store it
+  Matrix3* stress = nullptr;                  ///< stress [Pa]; null if not requested
+  double* state = nullptr;                    ///< input and output; stateStride numbers for each particle
   int stateStride = 0;
   // Only for models with capability::PlaceAndTime.
-  const Vec3* position = nullptr;         ///< m
-  const double* mass = nullptr;           ///< kg
-  double time = 0;                        ///< at the start of the step, s
-  double* waveSpeed = nullptr;            ///< m/s
-  double* bulkSpeed = nullptr;            ///< m/s; null if not wanted
-  double* temperatureChange = nullptr;    ///< K; null if not wanted
-  double* strainEnergyDensity = nullptr;  ///< J/m^3 of the volume at the start of the run; null if not wanted
+  const Vec3* position = nullptr;       ///< position [m]
+  const double* mass = nullptr;         ///< mass [kg]
+  double time = 0;                      ///< time at the start of the step [s]
+  double* waveSpeed = nullptr;          ///< wave speed [m/s]
+  double* bulkSpeed = nullptr;          ///< bulk speed [m/s]; null if not requested
+  double* temperatureChange = nullptr;  ///< temperature change [K]; null if not requested
+  /// Strain energy density [J/m^3], per volume at the start of the run; null if not requested.
+  double* strainEnergyDensity = nullptr;
 
   bool wantsWaveSpeedAndEnergyOnly() const { return !stress && !bulkSpeed && !temperatureChange; }
 };
 
-/// A constitutive model with one virtual call per group of particles.
+/// A constitutive model, called by one virtual call per group of particles.
 class Model {
  public:
   virtual ~Model() = default;
@@ -48,55 +49,55 @@ class Model {
   /// Number of doubles in the State of a particle.
   virtual int stateSize() const = 0;
   virtual std::vector<StateVariable> stateVariables() const = 0;
-  /// See capability::AbsentVariables.
+  /// Variables of Uintah's model that are always 0 in this model: see capability::AbsentVariables.
   virtual std::vector<StateVariable> absentVariables() const = 0;
   virtual void initialize(double* state, const Birth& birth) const = 0;
-  /// See capability::StateByParticle.
+  /// Whether the initial State depends on the particle: see capability::StateByParticle.
   virtual bool variesByParticle() const = 0;
   virtual bool usesTemperature() const = 0;
-  /// See capability::DependsOnDeformationOnly.
+  /// Whether the stress depends only on F: see capability::DependsOnDeformationOnly.
   virtual bool dependsOnDeformationOnly() const = 0;
-  /// See capability::FBar.
+  /// Whether the model supports F-bar: see capability::FBar.
   virtual bool supportsFBar() const = 0;
 
-  /// See capability::PlaceAndTime.
+  /// Whether the model uses the position and mass of the particle, and the time: see capability::PlaceAndTime.
   virtual bool usesPlaceAndTime() const = 0;
 
   /// Whether the work of a step changes the temperature.
   virtual bool changesTemperature() const = 0;
-  /// J/(kg K) at F and a temperature, K; `ofMaterial` for models without HeatCapacity.
+  /// Heat capacity [J/(kg K)] for F and a temperature [K]; `ofMaterial` is returned by models without HeatCapacity.
   virtual double heatCapacity(const Matrix3& deformation, double temperature, double ofMaterial) const = 0;
-  /// See capability::ViscousHeat.
+  /// Whether the State takes up the heat of the artificial viscosity: see capability::ViscousHeat.
   virtual bool hasViscousHeat() const = 0;
-  /// Adds the heat of the artificial viscosity, J/kg, to the state of a particle; only if hasViscousHeat().
+  /// Adds the heat of the artificial viscosity [J/kg] to the state of a particle; only if hasViscousHeat().
   virtual void addViscousHeat(double* state, double heat) const = 0;
-  /// See capability::Nonlocal.
+  /// Radius of the average of plastic strain [m]; 0 for no average: see capability::Nonlocal.
   virtual double nonlocalLength() const = 0;
-  /// Whether a point with F, a stress (Pa) and a temperature (K) is molten; false for models without Melting.
+  /// Whether a particle with given F, stress [Pa] and temperature [K] is molten; false for models without Melting.
   virtual bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const = 0;
-  /// See capability::Stability; false for models without it.
+  /// Whether plastic flow has become unstable in the step: see capability::Stability; false for models without it.
   virtual bool isUnstable(const Deformation& d, const Matrix3& stress, const double* state) const = 0;
   /// Whether isUnstable() can be true.
   virtual bool checksStability() const = 0;
-  /// Coefficients that replace those of the scene.
+  /// Coefficients of the artificial viscosity that replace those of the scene, if any.
   virtual std::optional<ArtificialViscosity> ownViscosity() const = 0;
 
-  /// Speed of the fastest wave at the start of the run, m/s.
+  /// Speed of the fastest wave at the start of the run [m/s].
   virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
-  /// See capability::InitialVolumeRatio.
+  /// The initial det F: see capability::InitialVolumeRatio.
   virtual double initialVolumeRatio() const = 0;
-  /// See capability::InitialStress.
+  /// Stress at the start of the run [Pa]: see capability::InitialStress.
   virtual Matrix3 initialStress() const = 0;
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
-  /// See capability::NominalTangent.
+  /// Whether the model has a tangent: see capability::NominalTangent.
   virtual bool hasTangent() const = 0;
-  /// dP/dF of each point, Pa, from the state at the start of the step; only if hasTangent().
+  /// Computes dP/dF of each point [Pa] from the state at the start of the step; only if hasTangent().
   virtual void nominalTangent(const StressPoints& points, Matrix9* tangent) const = 0;
-  /// J sigma of `count` deformation gradients, Pa; only if dependsOnDeformationOnly().
+  /// Computes J sigma for `count` deformation gradients [Pa]; only if dependsOnDeformationOnly().
   virtual void kirchhoffStress(const Matrix3* deformationGradient, int count, Matrix3* stress) const = 0;
 };
 
-/// Index of a state variable among the doubles of a particle; -1 if the model has none of that name.
+/// Index of a state variable among the doubles of a particle; -1 if the model has no variable of this name.
 inline int offsetOf(const Model& model, std::string_view label) {
   int offset = 0;
   for (const StateVariable& variable : model.stateVariables()) {
@@ -106,7 +107,7 @@ inline int offsetOf(const Model& model, std::string_view label) {
   return -1;
 }
 
-/// A constitutive model as a Model, with its capabilities resolved at compile time.
+/// Makes a Model of the constitutive model M, whose capabilities are resolved at compile time.
 template <ConstitutiveModel M>
 class ModelOf : public Model {
  public:
@@ -273,7 +274,7 @@ class ModelOf : public Model {
     }
     if (points.strainEnergyDensity) points.strainEnergyDensity[k] = model_.strainEnergyDensity(d, before, after, state);
   }
-  /// Wave speed for the artificial viscosity, m/s: see capability::BulkSpeed.
+  /// Wave speed for the artificial viscosity [m/s]: see capability::BulkSpeed.
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State& state,
                    double waveSpeed) const {
     if constexpr (providesCapability<M, capability::BulkSpeed>)

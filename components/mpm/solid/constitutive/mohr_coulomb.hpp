@@ -15,19 +15,19 @@
 namespace tushar::mpm::solid {
 
 /// Linear elasticity with the yield surface of Mohr and Coulomb, (s1 - s3) + (s1 + s3) sin phi = 2 c cos phi with the
-/// principal stresses s1 >= s2 >= s3, tension positive; flow by the same function with the dilation angle psi. The
-/// stress returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity
-/// (2008), section 8.2. The stress rotates with the material; Uintah's does not.
+/// principal stresses s1 >= s2 >= s3, tension positive; plastic flow follows from the same function with the dilation
+/// angle psi instead of phi. The stress returns to a face, an edge or the apex: de Souza Neto, Perić & Owen,
+/// Computational Methods for Plasticity (2008), section 8.2. The stress rotates with the material, unlike in Uintah.
 ///
-/// With <Usetransition> c = St A1 W^-B1 max(1, g/g_ref)^beta_rate for a water content W and a rate of shear g:
-/// Boukpeti, White, Randolph & Low, Géotechnique 62 (2012) 483. With <UseWaterRetention> a suction s adds s tan PhiB to
-/// it, Fredlund, Morgenstern & Widger, Can. Geotech. J. 15 (1978) 313; the saturation is S = (1 + (alpha s)^n)^-m, van
-/// Genuchten, Soil Sci. Soc. Am. J. 44 (1980) 892, and as much water stays in the pores.
+/// With <Usetransition>, c = St A1 W^-B1 max(1, g/g_ref)^beta_rate for a water content W and a shear rate g: Boukpeti,
+/// White, Randolph & Low, Géotechnique 62 (2012) 483. With <UseWaterRetention>, a suction s adds s tan PhiB to c,
+/// Fredlund, Morgenstern & Widger, Can. Geotech. J. 15 (1978) 313; the saturation is S = (1 + (alpha s)^n)^-m, van
+/// Genuchten, Soil Sci. Soc. Am. J. 44 (1980) 892, and the water content of the pores is constant.
 struct MohrCoulomb : IsotropicModuli {
   struct State {
-    double suction;         ///< s, Pa
-    double specificVolume;  ///< volume of the soil, including pores, divided by that of its grains, 1
-    double cohesion;        ///< c, Pa
+    double suction;         ///< suction s [Pa]
+    double specificVolume;  ///< ratio of the volume of the soil, including pores, to that of its grains [1]
+    double cohesion;        ///< cohesion c [Pa]
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::OptionalState>;
   static constexpr std::array<StateVariable, 3> stateVariables{
@@ -37,22 +37,22 @@ struct MohrCoulomb : IsotropicModuli {
   static constexpr std::string_view name = "MohrCoulomb";
   static constexpr bool strainEnergyIsRate = true;
 
-  double cohesion = 0;       ///< c, Pa
-  double frictionAngle = 0;  ///< phi, degrees
-  double dilationAngle = 0;  ///< psi, degrees
-  bool isWet = false;        ///< the cohesion follows from the water content and the rate
-  double strength = 0;       ///< A1, Pa
-  double waterExponent = 0;  ///< B1, 1
-  double waterContent = 1;   ///< W, 1
-  double sensitivity = 1;    ///< St, 1
-  double rateExponent = 0;   ///< beta_rate, 1
-  double referenceRate = 0;  ///< g_ref, 1/s
+  double cohesion = 0;       ///< cohesion c [Pa]
+  double frictionAngle = 0;  ///< friction angle phi [degrees]
+  double dilationAngle = 0;  ///< dilation angle psi [degrees]
+  bool isWet = false;        ///< whether the cohesion follows from the water content and the rate
+  double strength = 0;       ///< strength A1 [Pa]
+  double waterExponent = 0;  ///< water exponent B1 [1]
+  double waterContent = 1;   ///< water content W [1]
+  double sensitivity = 1;    ///< sensitivity St [1]
+  double rateExponent = 0;   ///< rate exponent beta_rate [1]
+  double referenceRate = 0;  ///< reference rate g_ref [1/s]
   bool retainsWater = false;
-  double retentionM = 0, retentionN = 0;  ///< m and n of the retention curve, 1
-  double retentionAlpha = 0;              ///< its alpha, 1/Pa
-  double suctionAngle = 0;                ///< PhiB, degrees
-  double initialSuction = 0;              ///< Pa
-  double initialSpecificVolume = 0;       ///< 1
+  double retentionM = 0, retentionN = 0;  ///< m and n of the retention curve [1]
+  double retentionAlpha = 0;              ///< alpha of the retention curve [1/Pa]
+  double suctionAngle = 0;                ///< suction angle PhiB [degrees]
+  double initialSuction = 0;              ///< initial suction [Pa]
+  double initialSpecificVolume = 0;       ///< initial specific volume [1]
 
   static const input::Schema<MohrCoulomb>& schema() {
     static const input::Schema<MohrCoulomb> schema = makeSchema();
@@ -85,7 +85,7 @@ struct MohrCoulomb : IsotropicModuli {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// Distance of a stress outside the yield surface, Pa; at most 0 if it is admissible.
+  /// Amount by which a stress exceeds the yield surface [Pa]; at most 0 if the stress is admissible.
   double excess(const Matrix3& stress) const {
     const Eigen::Vector3d s =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues();
@@ -93,14 +93,14 @@ struct MohrCoulomb : IsotropicModuli {
   }
 
  private:
-  using Principal = Eigen::Vector3d;  ///< principal stresses, Pa, the largest first
+  using Principal = Eigen::Vector3d;  ///< principal stresses [Pa], the largest first
 
   double lambda() const { return bulkModulus - 2.0 / 3.0 * shearModulus; }
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
   static double sine(double degrees) { return std::sin(radians(degrees)); }
   double bearable() const { return 2 * cohesion * std::cos(radians(frictionAngle)); }
 
-  /// The cohesion, Pa, at a strain rate in 1/s. As in Uintah the rate of shear is (1/2 sum (D_i - D_j)² + 3/4 sum
+  /// The cohesion [Pa] at a strain rate [1/s]. As in Uintah the rate of shear is (1/2 sum (D_i - D_j)² + 3/4 sum
   /// D_ij²)^(1/2).
   double wetCohesion(const Matrix3& rate) const {
     const double normal = std::pow(rate(0, 0) - rate(1, 1), 2) + std::pow(rate(0, 0) - rate(2, 2), 2) +
@@ -110,12 +110,12 @@ struct MohrCoulomb : IsotropicModuli {
     const double faster = shear > referenceRate ? std::pow(shear / referenceRate, rateExponent) : 1;
     return sensitivity * strength * std::pow(waterContent, -waterExponent) * faster;
   }
-  /// The fraction of the pores that water fills at a suction, Pa.
+  /// The fraction of the pores that water fills at a suction [Pa].
   double saturation(double suction) const {
     return std::pow(1 + std::pow(retentionAlpha * suction, retentionN), -retentionM);
   }
-  /// The suction after a dilatation, Pa: a constant amount of water fills a larger fraction of smaller pores, and all
-  /// of pores that have closed or open again.
+  /// Updates the suction [Pa] after a dilatation. The amount of water is constant, so it fills a larger fraction of
+  /// smaller pores; pores that are closed before or after the step count as full.
   void squeeze(double dilatation, State& state) const {
     constexpr double full = 0.99999;
     const double before = state.specificVolume, now = before * (1 + dilatation);
@@ -170,7 +170,7 @@ struct MohrCoulomb : IsotropicModuli {
         .value("SpecVol", &Self::initialSpecificVolume, 0, "1",
                "with UseWaterRetention: volume of the soil divided by that of its grains, at the start");
   }
-  /// A flag that Uintah reads as a number: true if it is above 0.
+  /// Declares a flag that Uintah reads as a number: true if the number is greater than 0.
   static void declareSwitch(input::Schema<MohrCoulomb>& tags, const std::string& tag, bool MohrCoulomb::*member,
                             const std::string& sentence) {
     const auto read = [=](MohrCoulomb& object, const input::Element& element, input::Diagnostics& diagnostics) {
@@ -196,7 +196,7 @@ struct MohrCoulomb : IsotropicModuli {
                         "above 1");
   }
 
-  /// Normal of the yield face of the i-th and the j-th principal stress.
+  /// Normal of the yield surface's face for the i-th and the j-th principal stress.
   static Principal normal(int i, int j, double angle) {
     Principal n = Principal::Zero();
     n[i] = 1 + sine(angle);
@@ -204,7 +204,7 @@ struct MohrCoulomb : IsotropicModuli {
     return n;
   }
   double face(const Principal& s, int i, int j) const { return normal(i, j, frictionAngle).dot(s) - bearable(); }
-  /// Stress per unit of plastic flow across a face, Pa.
+  /// Change of stress per unit of plastic flow across a face [Pa].
   Principal correction(int i, int j) const {
     const Principal flow = normal(i, j, dilationAngle);
     return 2 * shearModulus * flow + lambda() * flow.sum() * Principal::Ones();
@@ -232,7 +232,7 @@ struct MohrCoulomb : IsotropicModuli {
     }
     return bearable() / (2 * sine(frictionAngle)) * Principal::Ones();
   }
-  /// Return to the edge between the faces (0, 2) and (i, j).
+  /// Returns a stress to the edge between the faces (0, 2) and (i, j).
   Principal returnedToEdge(const Principal& s, int i, int j) const {
     const Principal a = normal(0, 2, frictionAngle), b = normal(i, j, frictionAngle);
     const Principal awayA = correction(0, 2), awayB = correction(i, j);

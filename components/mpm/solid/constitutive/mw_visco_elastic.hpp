@@ -12,13 +12,12 @@ namespace tushar::mpm::solid {
 
 /// A spring in parallel with a Maxwell element, each with a deviator and a pressure; Simo & Hughes, Computational
 /// Inelasticity (1998), section 10.2. sigma = s_e + s_v - (p_e + p_v) I with ds_e/dt = 2 G_e dev D, dp_e/dt = -K_e tr
-/// D,
-/// ds_v/dt = 2 G_v (dev D - s_v/eta_d), dp_v/dt = -K_v (tr D + 3 p_v/eta_v), as in Uintah. The stresses rotate with
+/// D, ds_v/dt = 2 G_v (dev D - s_v/eta_d), dp_v/dt = -K_v (tr D + 3 p_v/eta_v), as in Uintah. The stresses rotate with
 /// the material; Uintah's do not.
 struct MwViscoElastic {
   struct State {
-    double pressure;  ///< p_v, Pa
-    Tensor deviator;  ///< s_v, Pa
+    double pressure;  ///< pressure p_v [Pa]
+    Tensor deviator;  ///< deviator s_v [Pa]
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed>;
   static constexpr std::array<StateVariable, 2> stateVariables{
@@ -27,10 +26,10 @@ struct MwViscoElastic {
   static constexpr std::string_view name = "mw_visco_elastic";
   static constexpr bool strainEnergyIsRate = false;
 
-  double springShear = 0, springBulk = 0;    ///< G_e, K_e, Pa
-  double maxwellShear = 0, maxwellBulk = 0;  ///< G_v, K_v, Pa
-  double bulkViscosity = 0;                  ///< eta_v, Pa s
-  double shearViscosity = 0;                 ///< eta_d, Pa s
+  double springShear = 0, springBulk = 0;    ///< G_e and K_e of the spring [Pa]
+  double maxwellShear = 0, maxwellBulk = 0;  ///< G_v and K_v of the Maxwell element [Pa]
+  double bulkViscosity = 0;                  ///< bulk viscosity eta_v [Pa s]
+  double shearViscosity = 0;                 ///< shear viscosity eta_d [Pa s]
 
   static const input::Schema<MwViscoElastic>& schema() {
     using Self = MwViscoElastic;

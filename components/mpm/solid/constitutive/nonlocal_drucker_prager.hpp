@@ -17,35 +17,35 @@ namespace tushar::mpm::solid {
 /// flow by the same function with alpha_p, and a strength k that changes with the plastic strain at the point and
 /// around it; Burghardt et al., Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. For a plastic strain rate l' M, |M| =
 /// 1, k = k_o + eta + eta_n, d eta/dt = h_local l', d eta_n/dt = h_nonlocal times the mean of l' within l_nonlocal. The
-/// mean is that of the step before, so that a step is explicit in it.
+/// mean is taken from the previous step, so that a step is explicit in it.
 struct NonlocalDruckerPrager {
   struct State {
-    double plasticStrain;      ///< integral of l', 1
-    double hardening;          ///< eta, Pa
-    double nonlocalHardening;  ///< eta_n, Pa
-    double plasticIncrement;   ///< plastic strain of the step, 1
-    double meanIncrement;      ///< mean plastic strain of the step within l_nonlocal, 1
+    double plasticStrain;      ///< plastic strain: integral of l' [1]
+    double hardening;          ///< hardening eta [Pa]
+    double nonlocalHardening;  ///< nonlocal hardening eta_n [Pa]
+    double plasticIncrement;   ///< plastic strain in the step [1]
+    double meanIncrement;      ///< mean plastic strain in the step within l_nonlocal [1]
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::Nonlocal>;
   static constexpr std::array<StateVariable, 5> stateVariables{
       {{"p.plasticStrain", "1", "accumulated plastic strain"},
        {"p.eta", "Pa", "strength gained from the plastic strain at the point"},
        {"p.eta_nl", "Pa", "strength gained from the plastic strain around the point"},
-       {"p.plasticIncrement", "1", "plastic strain of the last step"},
-       {"p.meanPlasticIncrement", "1", "mean of the plastic strain of the last step within l_nonlocal"}}};
+       {"p.plasticIncrement", "1", "plastic strain of the latest step"},
+       {"p.meanPlasticIncrement", "1", "mean of the plastic strain of the latest step within l_nonlocal"}}};
   static constexpr std::string_view name = "nonlocal_drucker_prager";
   static constexpr bool strainEnergyIsRate = true;
 
-  double bulkModulus = 0;                                       ///< K, Pa
-  double shearModulus = 0;                                      ///< G, Pa
-  double friction = 0;                                          ///< alpha, 1
-  double dilation = 0;                                          ///< alpha_p, 1
-  double strength = 0;                                          ///< k_o, Pa
-  double localModulus = 0;                                      ///< h_local, Pa
-  double nonlocalModulus = 0;                                   ///< h_nonlocal, Pa
-  double length = 0;                                            ///< l_nonlocal, m
-  double leastStrength = 0;                                     ///< Pa
-  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< normal stresses at the start, Pa
+  double bulkModulus = 0;                                       ///< bulk modulus K [Pa]
+  double shearModulus = 0;                                      ///< shear modulus G [Pa]
+  double friction = 0;                                          ///< alpha [1]
+  double dilation = 0;                                          ///< alpha_p [1]
+  double strength = 0;                                          ///< strength k_o [Pa]
+  double localModulus = 0;                                      ///< local modulus h_local [Pa]
+  double nonlocalModulus = 0;                                   ///< nonlocal modulus h_nonlocal [Pa]
+  double length = 0;                                            ///< length l_nonlocal [m]
+  double leastStrength = 0;                                     ///< smallest strength [Pa]
+  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< initial normal stresses [Pa]
 
   static const input::Schema<NonlocalDruckerPrager>& schema() {
     static const input::Schema<NonlocalDruckerPrager> schema = makeSchema();
@@ -77,7 +77,8 @@ struct NonlocalDruckerPrager {
   }
 
  private:
-  /// Returns a trial stress to the yield surface along C : M, or to its apex; the result is the plastic strain.
+  /// Returns a trial stress to the yield surface along C : M, or to the apex of the surface; the result is the plastic
+  /// strain.
   double yield(Matrix3& stress, State& state) const {
     const Matrix3 shear = deviator(stress);
     const double size = shear.norm() / std::sqrt(2.0), mean = stress.trace() / 3;
@@ -96,8 +97,9 @@ struct NonlocalDruckerPrager {
     state.hardening += localModulus * increment;
     return increment;
   }
-  /// Returns a trial stress, with the root `size` of J2, to the apex of the surface that its plastic strain leaves:
-  /// that strain has (size/(2^(1/2) G))² + (p - p_apex)²/(3 K²) as the square of its length, which is the result.
+  /// Returns a trial stress, with the root `size` of J2, to the apex of the surface that results from its plastic
+  /// strain.
+  /// The result is the length of this strain, the square root of (size/(2^(1/2) G))² + (p - p_apex)²/(3 K²).
   double toApex(double start, double size, double toAxis, Matrix3& stress) const {
     const double mean = stress.trace() / 3, onAxis = mean - 3 * bulkModulus * dilation * toAxis / flowScale();
     const auto strainTo = [&](double apex) {
@@ -114,9 +116,9 @@ struct NonlocalDruckerPrager {
   double plasticIncrement(double excess, double hardening) const {
     return std::max(excess / (stiffness() + hardening), 0.0);
   }
-  /// The decrease of the trial stress towards a fixed surface per plastic strain, Pa.
+  /// The decrease of the trial stress towards a fixed surface per plastic strain [Pa].
   double stiffness() const { return (shearModulus + 9 * bulkModulus * friction * dilation) / flowScale(); }
-  /// Length of the gradient of the flow potential, 1.
+  /// Length of the gradient of the flow potential [1].
   double flowScale() const { return std::sqrt(0.5 + 3 * dilation * dilation); }
 
   static input::Schema<NonlocalDruckerPrager> makeSchema() {
@@ -142,13 +144,14 @@ struct NonlocalDruckerPrager {
     tags.check(checkConstants);
     return tags;
   }
-  /// If softening is faster than the decrease of the trial stress, no stress is on the surface.
+  /// Reports softening that is faster than the decrease of the trial stress, because no stress would then lie on the
+  /// yield surface.
   static void checkConstants(const NonlocalDruckerPrager& read, const input::Element& element,
                              input::Diagnostics& diagnostics) {
     const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();
     if (softest <= limit)
       diagnostics.error(element, fmt::format("<h_local>, or its sum with <h_nonlocal>, is {:g} Pa: the strength would "
-                                             "fall faster than the stress; it must be greater than {:g} Pa",
+                                             "fall faster than the stress; expected more than {:g} Pa",
                                              softest, limit));
   }
 };

@@ -6,7 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// R of F = R U, by Newton's iteration R <- (R + R^-T)/2; Higham, SIAM J. Sci. Stat. Comput. 7 (1986) 1160.
+/// The rotation R of F = R U, by Newton's iteration R <- (R + R^-T)/2; Higham, SIAM J. Sci. Stat. Comput. 7 (1986)
+/// 1160.
 inline Matrix3 rotationOf(const Matrix3& f) {
   Matrix3 rotation = f;
   for (int step = 0; step < 50; ++step) {
@@ -18,8 +19,8 @@ inline Matrix3 rotationOf(const Matrix3& f) {
   return rotation;
 }
 
-/// dR Rᵀ of F = V R when F changes by h F: W with h V = dV + V W, dV symmetric. With axial vectors, (tr V I - V) w = a,
-/// where A = h V - V hᵀ.
+/// The spin W = dR Rᵀ of F = V R when F changes by h F: h V = dV + V W, dV symmetric. With axial vectors, (tr V I - V)
+/// w = a, where A = h V - V hᵀ.
 inline Matrix3 spinOf(const Matrix3& h, const Matrix3& stretch) {
   const Matrix3 a = h * stretch - stretch * h.transpose();
   const Matrix3 lever = stretch.trace() * Matrix3::Identity() - stretch;
@@ -33,8 +34,8 @@ inline Matrix3 spinOf(const Matrix3& h, const Matrix3& stretch) {
 struct Corotated {
   Matrix3 before;  ///< rotation at the start of the step
   Matrix3 after;   ///< rotation at the end of the step
-  Matrix3 strain;  ///< D dt, 1
-  Matrix3 stress;  ///< at the start of the step, in the rotated axes, Pa
+  Matrix3 strain;  ///< strain of the step, D dt [1]
+  Matrix3 stress;  ///< stress at the start of the step, in the rotated axes [Pa]
 
   Corotated(const Deformation& d, const Matrix3& oldStress)
       : before(rotationOf(d.oldDeformationGradient)), after(rotationOf(d.deformationGradient)) {
@@ -42,13 +43,13 @@ struct Corotated {
     strain = seen(rate);
     stress = seen(oldStress);
   }
-  /// The components, in the rotated axes, of a tensor at the start of the step.
+  /// The components in the rotated axes of a tensor given at the start of the step.
   Matrix3 seen(const Matrix3& tensor) const { return before.transpose() * tensor * before; }
-  /// The components, in fixed axes at the end of the step, of a tensor given in the rotated axes.
+  /// The components in fixed axes, at the end of the step, of a tensor given in the rotated axes.
   Matrix3 turned(const Matrix3& tensor) const { return after * tensor * after.transpose(); }
 };
 
-/// The work of the mean stress in a step, J per m^3 of the volume at the start: D : (mean sigma) (mean J) dt.
+/// The work of the mean stress in a step, D : (mean sigma) (mean J) dt [J per m^3 of the initial volume].
 inline double stressWork(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress) {
   const Matrix3 mean = 0.5 * (oldStress + stress);
   const double volume = 0.5 * (d.deformationGradient.determinant() + d.oldDeformationGradient.determinant());

@@ -10,12 +10,13 @@
 namespace tushar::mpm::solid {
 
 /// An explosive with programmed burn: a detonation starts at a point, or from a plane to both sides, and moves at a
-/// given velocity, which does not depend on the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From
-/// t_b = T0 + |x - x_0| / D on, it burns a particle of mass m in the time in which it runs 1.5 (m / rho_0)^(1/3). sigma
-/// = -p I, with the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
+/// given velocity, independent of the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 +
+/// |x - x_0| / D on, a particle of mass m burns during the time in which the detonation advances by 1.5 (m /
+/// rho_0)^(1/3). sigma = -p I, where p is the average of the pressures of Murnaghan and of Jones, Wilkins and Lee,
+/// weighted by the burned fraction.
 struct ProgramBurn {
   struct State {
-    double burned;  ///< F, 1
+    double burned;  ///< F, burned fraction [1]
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::PlaceAndTime, capability::BulkSpeed,
                                       capability::InitialWaveSpeed>;
@@ -23,14 +24,15 @@ struct ProgramBurn {
   static constexpr std::string_view name = "program_burn";
   static constexpr bool strainEnergyIsRate = true;
 
-  double compressibility = 0, exponent = 0;  ///< kappa, 1/Pa, and n, 1, of the explosive
-  double a = 0, b = 0, c = 0;                ///< A, B, C of the products, Pa
-  double r1 = 0, r2 = 0, omega = 0;          ///< R1, R2, omega of the products, 1
-  double density = 0;                        ///< rho_0, kg/m^3
-  double detonationVelocity = 0;             ///< D, m/s
-  double ignitionTime = 0;                   ///< T0, s
-  std::array<double, 3> origin{};            ///< x_0, m
-  std::array<double, 3> direction{};         ///< normal of the plane through x_0; 0: it starts at the point
+  double compressibility = 0, exponent = 0;  ///< kappa [1/Pa] and n [1] of the explosive
+  double a = 0, b = 0, c = 0;                ///< A, B, C of the products [Pa]
+  double r1 = 0, r2 = 0, omega = 0;          ///< R1, R2, omega of the products [1]
+  double density = 0;                        ///< density rho_0 [kg/m^3]
+  double detonationVelocity = 0;             ///< detonation velocity D [m/s]
+  double ignitionTime = 0;                   ///< ignition time T0 [s]
+  std::array<double, 3> origin{};            ///< x_0, point of ignition [m]
+  /// Normal of the plane of ignition through x_0; 0: ignition at the point x_0.
+  std::array<double, 3> direction{};
 
   static const input::Schema<ProgramBurn>& schema() {
     static const input::Schema<ProgramBurn> schema = makeSchema();
@@ -45,20 +47,21 @@ struct ProgramBurn {
     state.burned = burnedAt(d);
     return -mixedPressure(explosive(), products(), state.burned, volumeOf(d)) * Matrix3::Identity();
   }
-  /// Wave speed of the unburned explosive, m/s.
+  /// Wave speed of the unburned explosive [m/s].
   double initialWaveSpeed(double initialDensity) const { return speed(explosive(), density / initialDensity); }
-  /// c² = -J² dp/dJ / rho_0, for the products as soon as it burns, and for the explosive as long as some is left; the
-  /// explosive is the stiffer one at high compression.
+  /// The wave speed, c² = -J² dp/dJ / rho_0. It is the larger of two speeds: that of the products, once burning has
+  /// started, and that of the explosive, as long as some is left. At high compression the explosive is stiffer than the
+  /// products.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State& state) const {
     const double j = volumeOf(d);
     if (state.burned <= 0) return speed(explosive(), j);
     return state.burned < 1 ? std::max(speed(products(), j), speed(explosive(), j)) : speed(products(), j);
   }
-  /// c_b² = J / (kappa rho_0), as in Uintah.
+  /// Bulk wave speed: c_b² = J / (kappa rho_0), as in Uintah.
   double bulkSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(volumeOf(d) / (compressibility * density));
   }
-  /// 0 as in Uintah, so that StrainEnergy can be compared.
+  /// Returns 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:

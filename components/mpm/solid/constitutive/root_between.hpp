@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid {
 
-/// A root of f between a and b, where it changes sign, by the Illinois variant of the method of false position;
+/// A root of f between a and b, where f has opposite signs, by the Illinois variant of the method of false position;
 /// Dowell & Jarratt, BIT 11 (1971) 168.
 template <class Function>
 double rootBetween(const Function& f, double a, double b) {

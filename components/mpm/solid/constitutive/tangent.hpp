@@ -6,9 +6,10 @@
 
 namespace tushar::mpm::solid {
 
-/// The tangent dP/dF of the first Piola-Kirchhoff stress P = tau F^-T from that of the Kirchhoff stress tau, Pa.
+/// Computes the tangent dP/dF of the first Piola-Kirchhoff stress P = tau F^-T from the tangent of the Kirchhoff stress
+/// tau [Pa].
 ///
-/// `change(h)` is the change of tau, Pa, when F changes by dF = h F; linear in h. With c its matrix,
+/// `change(h)` is the change of tau [Pa] when F changes by dF = h F; it is linear in h. With its matrix c,
 /// dP_iJ / dF_kL = sum_jl F^-1_Jj (c_ijkl - tau_il delta_jk) F^-1_Ll;
 /// Simo & Hughes, Computational Inelasticity (1998), section 7.1.
 template <class Change>

@@ -15,7 +15,7 @@ template <class Real>
          f(0, 2) * (f(1, 0) * f(2, 1) - f(1, 1) * f(2, 0));
 }
 
-/// F Fᵀ
+/// Computes F Fᵀ.
 template <class Real>
 [[gnu::always_inline]] inline TensorOf<Real> leftCauchyGreen(const TensorOf<Real>& f) {
   TensorOf<Real> b;

@@ -20,14 +20,14 @@ struct ThWater {
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double pressureShift = 0;           ///< a, K/Pa
-  double heatSlope = 0;               ///< b, J/(kg K²)
-  double specificHeat = 0;            ///< c_0, J/(kg K)
-  double compressibility = 0;         ///< k, 1/Pa
-  double densestTemperature = 0;      ///< T_0, K
-  double curvature = 0;               ///< L, 1/K²
-  double densestVolume = 0;           ///< v_0, m^3/kg
-  double referencePressure = 101325;  ///< at which there is no stress, Pa
+  double pressureShift = 0;           ///< a, decrease of T_0 with the pressure [K/Pa]
+  double heatSlope = 0;               ///< b, decrease of c_p with the temperature [J/(kg K²)]
+  double specificHeat = 0;            ///< specific heat c_0 at T_0 and p = 0 [J/(kg K)]
+  double compressibility = 0;         ///< compressibility k [1/Pa]
+  double densestTemperature = 0;      ///< temperature T_0 of largest density at p = 0 [K]
+  double curvature = 0;               ///< curvature L of the volume around T_0 [1/K²]
+  double densestVolume = 0;           ///< specific volume v_0 at T_0 and p = 0 [m^3/kg]
+  double referencePressure = 101325;  ///< pressure at which the stress is 0 [Pa]
 
   static const input::Schema<ThWater>& schema() {
     using Self = ThWater;
@@ -53,7 +53,7 @@ struct ThWater {
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     return (referencePressure - pointAt(d).pressure) * Matrix3::Identity();
   }
-  /// c² = -v² (dp/dv)_s = v² (c_v (dp/dv)_T + T (dp/dT)_v²)/c_v
+  /// The wave speed: c² = -v² (dp/dv)_s = v² (c_v (dp/dv)_T + T (dp/dT)_v²)/c_v.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
     const Point at = pointAt(d);
     const double steepness = at.byTemperature / at.byPressure;
@@ -65,30 +65,32 @@ struct ThWater {
     const double steepness = at.byTemperature / at.byPressure;  // (dp/dT)_v, Pa/K
     return -at.temperature * steepness * at.volume * growth / heatAtConstantVolume(at);
   }
-  /// 0 as in Uintah, so that StrainEnergy can be compared.
+  /// Returns 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:
   struct Point {
-    double volume;         ///< v, m^3/kg
-    double temperature;    ///< T, K
-    double pressure;       ///< p, Pa
-    double byPressure;     ///< -(dv/dp)_T, m^3/(kg Pa)
-    double byTemperature;  ///< (dv/dT)_p, m^3/(kg K)
-    double heat;           ///< c_p, J/(kg K)
+    double volume;         ///< volume v [m^3/kg]
+    double temperature;    ///< temperature T [K]
+    double pressure;       ///< pressure p [Pa]
+    double byPressure;     ///< -(dv/dp)_T [m^3/(kg Pa)]
+    double byTemperature;  ///< (dv/dT)_p [m^3/(kg K)]
+    double heat;           ///< heat capacity c_p [J/(kg K)]
   };
-  /// The formula is valid up to about 1e8 Pa and, without pressure, about 90 K above T_0. Beyond, it would make c_v and
-  /// then the compressibility vanish: at .89 and .86 of the volume at 300 K. This share of the compressibility without
-  /// pressure, and of c_p = c_v + T (dp/dT)_v (dv/dT)_p for c_v, is left.
+  /// Lower limit of c_v, as a fraction of c_p = c_v + T (dp/dT)_v (dv/dT)_p, and of the compressibility, as a fraction
+  /// of that without pressure. The formula is valid up to about 1e8 Pa and, without pressure, up to about 90 K above
+  /// T_0. At higher compression it would make c_v and then the compressibility vanish: at .89 and .86 of the volume at
+  /// 300 K.
   static constexpr double least = 0.25;
 
-  /// c_v, J/(kg K)
+  /// The heat capacity at constant volume c_v [J/(kg K)].
   double heatAtConstantVolume(const Point& at) const {
     const double difference = at.temperature * at.byTemperature * at.byTemperature / at.byPressure;
     return std::max(at.heat - difference, least / (1 - least) * difference);
   }
-  /// The smaller root p of the quadratic equation v(p, T) = v, where the volume of the liquid falls with pressure. The
-  /// curve ends at the pressure where `least` of its compressibility is left, and goes on along its tangent there.
+  /// The smaller root p of the quadratic equation v(p, T) = v, at which the volume of the liquid decreases with
+  /// pressure. The curve ends at the pressure at which the fraction `least` of the compressibility is left, and
+  /// continues along its tangent there.
   Point pointAt(const Deformation& d) const {
     const double volume = d.deformationGradient.determinant() / material.density, t = d.temperature;
     const double warm = t - densestTemperature, bent = 2 * curvature * pressureShift;

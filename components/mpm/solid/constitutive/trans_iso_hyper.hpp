@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 /// Ligament: Mooney-Rivlin rubber with fibres in one direction; see FibreElasticity.
 struct TransIsoHyper : FibreElasticity {
   struct State {
-    double stretch;  ///< stretch of the fibres, 1
+    double stretch;  ///< stretch of the fibres [1]
   };
   using Capabilities = CapabilityList<capability::AbsentVariables, capability::IgnoresTemperature,
                                       capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed>;

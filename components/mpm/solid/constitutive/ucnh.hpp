@@ -15,13 +15,12 @@
 namespace tushar::mpm::solid {
 
 /// Neo-Hookean elasticity with J2 flow and linear isotropic hardening at finite strain: Simo & Hughes, Computational
-/// Inelasticity (1998), section 9.3, box 9.1. Uintah's `UCNH` and `comp_neo_hook_plastic`,
-/// which is plastic by default.
+/// Inelasticity (1998), section 9.3, box 9.1. Uintah's `UCNH` and `comp_neo_hook_plastic`, which is plastic by default.
 template <bool plasticByDefault>
 struct NeoHookPlastic {
   struct State {
-    double plasticStrain;  ///< alpha, equivalent plastic strain, 1
-    Tensor bElBar;         ///< J^(-2/3) F_e F_eᵀ: elastic and isochoric, 1
+    double plasticStrain;  ///< alpha, equivalent plastic strain [1]
+    Tensor bElBar;         ///< J^(-2/3) F_e F_eᵀ: elastic and isochoric [1]
   };
   using Capabilities =
       CapabilityList<capability::OptionalState, capability::IgnoresTemperature, capability::FBar,
@@ -32,17 +31,17 @@ struct NeoHookPlastic {
   static constexpr std::string_view name = plasticByDefault ? "comp_neo_hook_plastic" : "UCNH";
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
   bool isPlastic = plasticByDefault;
-  std::optional<double> yieldStress;       ///< Y, Pa
-  std::optional<double> hardeningModulus;  ///< H, Pa
-  double initialPlasticStrain = 0;         ///< 1
+  std::optional<double> yieldStress;       ///< Y, yield stress [Pa]; none: elastic
+  std::optional<double> hardeningModulus;  ///< hardening modulus H [Pa]
+  double initialPlasticStrain = 0;         ///< initial plastic strain [1]
   bool yieldSpreads = false;               ///< whether the yield stress differs between particles: see UcnhVar
-  double yieldRange = 0;                   ///< largest deviation from Y, Pa
+  double yieldRange = 0;                   ///< largest deviation from Y [Pa]
   int yieldSeed = 0;
   bool startsUnderPressure = false;
-  double initialPressure = 0;  ///< Pa
+  double initialPressure = 0;  ///< initial pressure [Pa]
 
   static const input::Schema<NeoHookPlastic>& schema() {
     using Self = NeoHookPlastic;
@@ -70,7 +69,7 @@ struct NeoHookPlastic {
             if (read.isPlastic && !(read.yieldStress && read.hardeningModulus))
               diagnostics.error(element, "a material that yields needs <yield_stress> and <hardening_modulus>");
             if (read.yieldSpreads && read.yieldStress && read.yieldRange >= *read.yieldStress)
-              diagnostics.error(element, "<yield_range> must be less than <yield_stress>");
+              diagnostics.error(element, "<yield_range> is not less than <yield_stress>");
           });
       addInitialPressure(tags);
       refuseSwitch(tags, "reinitializeCMData", "bodies keep their state from the start");
@@ -96,7 +95,8 @@ struct NeoHookPlastic {
     return stress / j;
   }
 
-  /// With s the trial stress, n = s/|s|, q = f / (1 + H/(3 mu)), f = |s| - (2/3)^(1/2) (H alpha + Y), mu = G tr b / 3:
+  /// Computes the tangent. With s the trial stress, n = s/|s|, q = f / (1 + H/(3 mu)), f = |s| - (2/3)^(1/2) (H alpha +
+  /// Y), mu = G tr b / 3:
   /// d tau = K J² tr h I + ds - q dn - n dq, and d mu in dq.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State& old) const {
     const double j = d.deformationGradient.determinant();
@@ -122,7 +122,7 @@ struct NeoHookPlastic {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// W = K/2 ((J² - 1)/2 - ln J) + G/2 (tr b - 3)
+  /// The energy W = K/2 ((J² - 1)/2 - ln J) + G/2 (tr b - 3).
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State& state) const {
     const StrainInvariants strain(d.deformationGradient);
     const double shear = isPlastic ? matrixOf(state.bElBar).trace() - 3 : strain.isochoricFirst();
@@ -130,15 +130,15 @@ struct NeoHookPlastic {
   }
 
  private:
-  /// The elastic trial state, and its distance outside the yield surface.
+  /// The elastic trial state, and the amount by which it exceeds the yield surface.
   struct Trial {
-    Matrix3 elastic;       ///< b, 1
-    Matrix3 stress;        ///< s = G dev b, Pa
+    Matrix3 elastic;       ///< elastic b [1]
+    Matrix3 stress;        ///< s = G dev b [Pa]
     Matrix3 normal;        ///< s / |s|
-    double size;           ///< |s|, Pa
-    double shear;          ///< mu, Pa
+    double size;           ///< |s| [Pa]
+    double shear;          ///< shear modulus mu [Pa]
     double hardening = 0;  ///< H / (3 mu)
-    double excess = 0;     ///< q, by which the return shortens s, Pa
+    double excess = 0;     ///< q, the decrease of |s| by the return [Pa]
 
     Trial(const NeoHookPlastic& body, const Deformation& d, const State& state) {
       const Matrix3 step =
@@ -156,7 +156,7 @@ struct NeoHookPlastic {
       const double radius = *body.hardeningModulus * state.plasticStrain + *body.yieldStress;
       excess = std::max(size - std::sqrt(2.0 / 3.0) * radius, 0.0) / (1 + hardening);
     }
-    /// (2/3)^(1/2) q / (2 mu)
+    /// The increment of the plastic strain, (2/3)^(1/2) q / (2 mu).
     double slip() const { return std::sqrt(2.0 / 3.0) * excess / (2 * shear); }
   };
 };

@@ -13,12 +13,12 @@ namespace tushar::mpm::solid {
 struct UcnhVar {
   using Common = NeoHookPlastic<false>;
   struct State {
-    double plasticStrain;     ///< alpha, 1
-    Tensor bElBar;            ///< J^(-2/3) F_e F_eᵀ, 1
-    double bulkModulus;       ///< K, Pa
-    double shearModulus;      ///< G, Pa
-    double yieldStress;       ///< Y, Pa
-    double hardeningModulus;  ///< H, Pa
+    double plasticStrain;     ///< alpha [1]
+    Tensor bElBar;            ///< J^(-2/3) F_e F_eᵀ [1]
+    double bulkModulus;       ///< bulk modulus K [Pa]
+    double shearModulus;      ///< shear modulus G [Pa]
+    double yieldStress;       ///< yield stress Y [Pa]
+    double hardeningModulus;  ///< hardening modulus H [Pa]
   };
   using Capabilities =
       CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::InitialWaveSpeed,
@@ -40,11 +40,11 @@ struct UcnhVar {
   };
 
   bool isPlastic = false;
-  std::array<Entry, mostEntries> entries{};  ///< in the order of their color
-  std::size_t count = 0;                     ///< of them
-  double initialPlasticStrain = 0;           ///< 1
-  double startVolumeRatio = 1;               ///< det F at the start
-  double yieldRange = 0;                     ///< largest deviation of the yield stress, Pa
+  std::array<Entry, mostEntries> entries{};  ///< entries in order of increasing color
+  std::size_t count = 0;                     ///< number of entries
+  double initialPlasticStrain = 0;           ///< initial plastic strain [1]
+  double startVolumeRatio = 1;               ///< initial det F
+  double yieldRange = 0;                     ///< largest deviation of the yield stress [Pa]
   int yieldSeed = 0;
 
   static const input::Schema<UcnhVar>& schema() {
@@ -86,7 +86,7 @@ struct UcnhVar {
     state.bElBar = common.bElBar;
     return stress;
   }
-  /// Wave speed of the stiffest particles, m/s.
+  /// Wave speed of the stiffest particles [m/s].
   double initialWaveSpeed(double initialDensity) const {
     double modulus = 0;
     for (const Entry& entry : table()) modulus = std::max(modulus, entry.bulkModulus + 4.0 / 3.0 * entry.shearModulus);

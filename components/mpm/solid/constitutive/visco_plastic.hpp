@@ -17,23 +17,23 @@ namespace tushar::mpm::solid {
 using ViscoplasticFlow = std::variant<SuvicI>;
 
 /// Hypoelasticity with creep and an equation of state; stress rates are those of Green & Naghdi. Nine tenths of the
-/// inelastic work heat. With check_failure a particle fails for good where the largest principal stress, that of the
-/// strain (I - b⁻¹)/2, or the mean stress exceeds failure_variable_mean.
+/// inelastic work become heat. With check_failure, a particle fails permanently if the largest principal stress, the
+/// largest principal value of the strain (I - b⁻¹)/2, or the mean stress exceeds failure_variable_mean.
 struct ViscoPlastic {
   struct State {
-    double plasticStrain;      ///< 1
-    double plasticStrainRate;  ///< 1/s
-    double yield;              ///< Pa
-    double drag;               ///< Pa
+    double plasticStrain;      ///< plastic strain [1]
+    double plasticStrainRate;  ///< plastic strain rate [1/s]
+    double yield;              ///< yield stress [Pa]
+    double drag;               ///< drag stress [Pa]
     double failed;             ///< 1 if the particle has failed
-    double failureVariable;    ///< Pa, or 1
-    Tensor backStress;         ///< Pa
+    double failureVariable;    ///< stress [Pa] or strain [1] at which the particle fails
+    Tensor backStress;         ///< back stress [Pa]
   };
   using Capabilities = CapabilityList<capability::ConstantsOfMaterial, capability::BulkSpeed,
                                       capability::InitialWaveSpeed, capability::TemperatureChange>;
   static constexpr std::array<StateVariable, 7> stateVariables{
       {{"p.plasticStrain", "1", "equivalent inelastic strain"},
-       {"p.plasticStrainRate", "1/s", "equivalent inelastic strain rate in the last step"},
+       {"p.plasticStrainRate", "1/s", "equivalent inelastic strain rate in the latest step"},
        {"p.yield", "Pa", "yield stress"},
        {"p.drag", "Pa", "drag stress"},
        {"p.localized", "1", "1 if the particle has failed"},
@@ -41,14 +41,14 @@ struct ViscoPlastic {
        {"p.backstress", "Pa", "back stress", 9}}};
   static constexpr std::string_view name = "visco_plastic";
   static constexpr bool strainEnergyIsRate = true;
-  static constexpr double heatedShare = 0.9;  ///< the Taylor-Quinney coefficient, as in Uintah, 1
+  static constexpr double heatedShare = 0.9;  ///< Taylor-Quinney coefficient, as in Uintah [1]
 
   MaterialConstants material;
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
   std::variant<HyperelasticVolume, HypoelasticVolume> equationOfState;
   ViscoplasticFlow flow;
-  double initialTemperature = 269.15;  ///< reference temperature of the equation of state, K
+  double initialTemperature = 269.15;  ///< reference temperature of the equation of state [K]
   bool canFail = false, byStress = true, byPressure = false;
   double failureVariable = 1e30;
   bool losesStress = true, losesTension = false;
@@ -94,7 +94,7 @@ struct ViscoPlastic {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// Strain energy density, J/m^3; 0 for failed particles, as in Uintah.
+  /// Strain energy density [J/m^3]; 0 for failed particles, as in Uintah.
   double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
                              const State& state) const {
     return state.failed != 0 ? 0 : stressWork(d, oldStress, stress);
@@ -118,7 +118,7 @@ struct ViscoPlastic {
                             material.specificHeat};
     return std::visit([&](const auto& model) { return model.meanStress(state); }, equationOfState);
   }
-  /// The stress of a failed particle.
+  /// The stress that remains in a failed particle.
   Matrix3 left(const Matrix3& stress) const {
     if (losesStress) return Matrix3::Zero();
     if (losesTension) return std::min(stress.trace() / 3, 0.0) * Matrix3::Identity();
@@ -144,10 +144,11 @@ struct ViscoPlastic {
                "principal strain does")
         .value("failure_by_pressure", &Self::byPressure, false, "1",
                "true: the mean stress is compared with the limit instead")
-        .value("failure_variable_mean", &Self::failureVariable, 1e30, "1", "stress (Pa) or strain at which they fail")
+        .value("failure_variable_mean", &Self::failureVariable, 1e30, "1",
+               "stress (Pa) or strain at which particles fail")
         .value("zero_stress_upon_failure", &Self::losesStress, true, "1", "whether failed particles bear no stress")
         .value("allow_no_tension", &Self::losesTension, false, "1",
-               "whether failed particles that bear stress bear only pressure");
+               "whether failed particles that bear stress bear only a pressure");
     typedTag(tags, "visco_plasticity_model", &Self::flow, "the model of the inelastic strain rate", true);
     typedTag(tags, "equation_of_state", &Self::equationOfState,
              "the model of the mean stress; default_hyper if left out", false);

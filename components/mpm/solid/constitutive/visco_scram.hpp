@@ -19,11 +19,11 @@ namespace tushar::mpm::solid {
 /// The step is implicit in s, so that it is stable for any time step; without cracks it is exact.
 struct ViscoScram {
   struct State {
-    double crackRadius;               ///< c, m
-    double viscousHeating;            ///< K/s
-    double crackHeating;              ///< K/s
-    double volumeHeating;             ///< cooling by expansion, K/s
-    std::array<Tensor, 5> deviators;  ///< s_n, Pa
+    double crackRadius;               ///< crack radius c [m]
+    double viscousHeating;            ///< viscous heating [K/s]
+    double crackHeating;              ///< crack heating [K/s]
+    double volumeHeating;             ///< cooling by expansion [K/s]
+    std::array<Tensor, 5> deviators;  ///< deviators s_n [Pa]
   };
   using Capabilities = CapabilityList<capability::ConstantsOfMaterial, capability::BulkSpeed,
                                       capability::InitialWaveSpeed, capability::TemperatureChange>;
@@ -41,22 +41,23 @@ struct ViscoScram {
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double poissonRatio = 0;                                       ///< nu, 1
-  double crackScale = 0;                                         ///< a, m
-  double crackPower = 0;                                         ///< m, 1
-  double greatestCrackSpeed = 0;                                 ///< m/s
-  double toughness = 0;                                          ///< K_0, Pa m^(1/2)
-  double crackFriction = 0;                                      ///< mu, 1
-  double initialCrackRadius = 0;                                 ///< m
-  double tensileSpeedUp = 0;                                     ///< factor for cracks in tension, 1
-  double g1 = 0, g2 = 0, g3 = 0, g4 = 0, g5 = 0;                 ///< G_n, Pa
-  double rate1 = 0, rate2 = 0, rate3 = 0, rate4 = 0, rate5 = 0;  ///< 1/tau_n, 1/s
-  double gruneisen = 0;                                          ///< 1
+  double poissonRatio = 0;                                       ///< Poisson's ratio nu [1]
+  double crackScale = 0;                                         ///< crack scale a [m]
+  double crackPower = 0;                                         ///< crack power m [1]
+  double greatestCrackSpeed = 0;                                 ///< largest crack speed [m/s]
+  double toughness = 0;                                          ///< toughness K_0 [Pa m^(1/2)]
+  double crackFriction = 0;                                      ///< crack friction mu [1]
+  double initialCrackRadius = 0;                                 ///< initial crack radius [m]
+  double tensileSpeedUp = 0;                                     ///< factor of the crack speed in tension [1]
+  double g1 = 0, g2 = 0, g3 = 0, g4 = 0, g5 = 0;                 ///< G_n [Pa]
+  double rate1 = 0, rate2 = 0, rate3 = 0, rate4 = 0, rate5 = 0;  ///< 1/tau_n [1/s]
+  double gruneisen = 0;                                          ///< Grüneisen parameter [1]
   bool ratesFollowTemperature = false;
-  double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry, K
-  double shift1 = 6.5;            ///< C_1, 1
-  double shift2 = 120;            ///< C_2, K
-  double thermalExpansion = 0;    ///< of lengths, 1/K; if it is not 0, the model is ExpandingViscoScram
+  double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry [K]
+  double shift1 = 6.5;            ///< shift1 C_1 [1]
+  double shift2 = 120;            ///< shift2 C_2 [K]
+  /// Coefficient of linear expansion [1/K]; if it is not 0, the model is ExpandingViscoScram.
+  double thermalExpansion = 0;
 
   static const input::Schema<ViscoScram>& schema() {
     static const input::Schema<ViscoScram> schema = makeSchema();
@@ -67,7 +68,7 @@ struct ViscoScram {
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     return updateStress(d, oldStress, state, 0);
   }
-  /// The same, with a strain `free` along each axis that causes no stress, 1.
+  /// Computes the stress at the end of the step, where the strain `free` along each axis causes no stress [1].
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state, double free) const {
     Corotated step(d, oldStress);
     step.strain.diagonal().array() -= free;
@@ -93,28 +94,28 @@ struct ViscoScram {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// Hackett & Bennett, Int. J. Numer. Methods Engrg. 49 (2000) 1191.
+  /// Temperature change after Hackett & Bennett, Int. J. Numer. Methods Engrg. 49 (2000) 1191.
   double temperatureChange(const Deformation& d, const Matrix3&, const State& state) const {
     return (state.viscousHeating + state.crackHeating - state.volumeHeating) * d.timeStep;
   }
 
  private:
   struct Element {
-    double modulus;  ///< G_n, Pa
-    double rate;     ///< 1/tau_n, 1/s
+    double modulus;  ///< modulus G_n [Pa]
+    double rate;     ///< 1/tau_n [1/s]
   };
   using Elements = std::array<Element, 5>;
-  /// The load that opens the cracks in a step.
+  /// The load in a step that opens the cracks.
   struct CrackLoad {
-    double pressure;       ///< on the faces of the cracks, Pa; 0 in tension
-    double stress;         ///< (s:s)^(1/2) under pressure, (sigma:sigma)^(1/2) in tension, Pa
-    double greatestSpeed;  ///< m/s
+    double pressure;       ///< pressure on the faces of the cracks [Pa]; 0 in tension
+    double stress;         ///< (s:s)^(1/2) in compression, (sigma:sigma)^(1/2) in tension [Pa]
+    double greatestSpeed;  ///< largest speed [m/s]
   };
 
   double shearModulus() const { return g1 + g2 + g3 + g4 + g5; }
   double bulkModulus() const { return 2 * shearModulus() * (1 + poissonRatio) / (3 * (1 - 2 * poissonRatio)); }
   double waveModulus() const { return bulkModulus() + 4.0 / 3.0 * shearModulus(); }
-  /// (c/a)³
+  /// The crack factor (c/a)³.
   double cracked(double radius) const {
     const double relative = radius / crackScale;
     return relative * relative * relative;
@@ -128,7 +129,7 @@ struct ViscoScram {
         {{g1, rate1 * faster}, {g2, rate2 * faster}, {g3, rate3 * faster}, {g4, rate4 * faster}, {g5, rate5 * faster}}};
   }
 
-  /// The load of a step. The largest crack speed depends on the strain rate, exp(-2.90178468) (1.5^(1/2) |dev
+  /// The load in a step. The largest crack speed depends on the strain rate, exp(-2.90178468) (1.5^(1/2) |dev
   /// D|)^.90564746, with Uintah's numbers for PBX 9501.
   CrackLoad crackLoadOf(const Corotated& step, double timeStep) const {
     const double mean = step.stress.trace() / 3, rate = std::sqrt(1.5) * deviator(step.strain).norm() / timeStep;
@@ -137,8 +138,9 @@ struct ViscoScram {
     return {std::max(-mean, 0.0), mean > 0 ? step.stress.norm() : deviator(step.stress).norm(),
             std::min(speed, greatestCrackSpeed)};
   }
-  /// dc/dt = v (K/K_1)^m below K', v (1 - (K_0'/K)²) above, eqs. 24-31: K = (3/2 pi c)^(1/2) sigma, K_0' the toughness
-  /// with friction on the faces of the crack, K' = K_0' (1 + 2/m)^(1/2), K_1 = K' (1 + m/2)^(1/m).
+  /// The crack speed dc/dt = v (K/K_1)^m for K < K', and v (1 - (K_0'/K)²) otherwise, eqs. 24-31: K = (3/2 pi c)^(1/2)
+  /// sigma, K_0' the toughness with friction on the faces of the crack, K' = K_0' (1 + 2/m)^(1/2), K_1 = K' (1 +
+  /// m/2)^(1/m).
   double crackSpeed(const CrackLoad& load, double radius) const {
     const double intensity = std::sqrt(1.5 * std::numbers::pi * radius) * load.stress;
     if (intensity <= 0) return 0;
@@ -152,7 +154,7 @@ struct ViscoScram {
     }
     return load.greatestSpeed * (1 - resistance * resistance / (intensity * intensity));
   }
-  /// Growth of the radius in a step, m, by the fourth-order Runge-Kutta method.
+  /// Growth of the crack radius in a step [m], by the fourth-order Runge-Kutta method.
   double growthOf(const CrackLoad& load, double radius, double timeStep) const {
     const double k1 = crackSpeed(load, radius), k2 = crackSpeed(load, radius + 0.5 * timeStep * k1);
     const double k3 = crackSpeed(load, radius + 0.5 * timeStep * k2), k4 = crackSpeed(load, radius + timeStep * k3);
@@ -181,7 +183,7 @@ struct ViscoScram {
       state.deviators[n] = tensorOf(step.turned(free[n] - gained[n] * elements[n].modulus / shearModulus() * opened));
     return stress;
   }
-  /// Rates of heating, K/s: sum_n s_n:s_n/(2 G_n tau_n), s : d((c/a)³ s)/dt / (2 G), each over rho c_v, and
+  /// Computes the heating rates [K/s]: sum_n s_n:s_n/(2 G_n tau_n), s : d((c/a)³ s)/dt / (2 G), each over rho c_v, and
   /// Gamma T tr D.
   void heat(const Corotated& step, const Deformation& d, const Elements& elements, const Matrix3& opened,
             const Matrix3& stress, State& state) const {
@@ -247,18 +249,18 @@ struct ViscoScram {
       tags.required("RTau" + number, members[n].second, "1/s", "relaxation rate of this element", input::nonNegative());
     }
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
-      if (read.shearModulus() <= 0) diagnostics.error(element, "one of <G1> to <G5> must be positive");
+      if (read.shearModulus() <= 0) diagnostics.error(element, "none of <G1> to <G5> is positive");
     });
   }
 };
 static_assert(ConstitutiveModel<ViscoScram>);
 
-/// The same for a material with thermal expansion: the strain rate that causes stress is D - alpha dT/dt I, as in
-/// Uintah with T at the start of this step and of the previous one.
+/// ViscoScram with thermal expansion: the strain rate that causes stress is D - alpha dT/dt I. As in Uintah, dT/dt
+/// follows from the temperatures at the start of this step and of the previous one.
 struct ExpandingViscoScram {
   struct State {
     ViscoScram::State scram;
-    double temperature;  ///< at the start of the last step, K; -1 before the first one
+    double temperature;  ///< temperature at the start of the previous step [K]; -1 in the first step
   };
   using Capabilities =
       CapabilityList<capability::BulkSpeed, capability::InitialWaveSpeed, capability::TemperatureChange>;

@@ -12,16 +12,16 @@
 
 namespace tushar::mpm::solid {
 
-/// Relaxing ligament: the stress s_e of FibreElasticity, and six Maxwell elements driven by it, sigma = s_e + sum_k y_k
-/// h_k, dh_k/dt = ds_e/dt - h_k/t_k: the quasi-linear viscoelasticity of Fung, with the recursion of Puso & Weiss, J.
-/// Biomech. Eng. 120 (1998) 62, eqs. 10-14. They write it for the second Piola-Kirchhoff stress, Uintah for the Cauchy
-/// stress in fixed axes; here it is the Cauchy stress in axes that rotate with the material, so that rotation changes
-/// nothing and stretching without rotation gives Uintah's stresses.
+/// Ligament with relaxation: the stress s_e of FibreElasticity, and six Maxwell elements driven by it, sigma = s_e +
+/// sum_k y_k h_k, dh_k/dt = ds_e/dt - h_k/t_k: the quasi-linear viscoelasticity of Fung, with the recursion of Puso &
+/// Weiss, J. Biomech. Eng. 120 (1998) 62, eqs. 10-14. They use the second Piola-Kirchhoff stress, and Uintah the Cauchy
+/// stress in fixed axes; here the Cauchy stress in axes that rotate with the material is used, so that rotation has no
+/// effect, and stretching without rotation gives Uintah's stresses.
 struct ViscoTransIsoHyper : FibreElasticity {
   struct State {
-    double stretch;                   ///< of the fibres, 1
-    Tensor elasticStress;             ///< s_e, Pa
-    std::array<Tensor, 6> histories;  ///< h_k, Pa
+    double stretch;                   ///< stretch of the fibres [1]
+    Tensor elasticStress;             ///< elastic stress s_e [Pa]
+    std::array<Tensor, 6> histories;  ///< histories h_k [Pa]
   };
   using Capabilities = CapabilityList<capability::AbsentVariables, capability::IgnoresTemperature,
                                       capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed>;
@@ -38,8 +38,8 @@ struct ViscoTransIsoHyper : FibreElasticity {
   static constexpr std::string_view name = "visco_trans_iso_hyper";
   static constexpr bool strainEnergyIsRate = false;
 
-  double y1 = 0, y2 = 0, y3 = 0, y4 = 0, y5 = 0, y6 = 0;  ///< 1
-  double t1 = 0, t2 = 0, t3 = 0, t4 = 0, t5 = 0, t6 = 0;  ///< s
+  double y1 = 0, y2 = 0, y3 = 0, y4 = 0, y5 = 0, y6 = 0;  ///< y1, y2, y3, y4, y5 and y6 [1]
+  double t1 = 0, t2 = 0, t3 = 0, t4 = 0, t5 = 0, t6 = 0;  ///< t1, t2, t3, t4, t5 and t6 [s]
 
   static const input::Schema<ViscoTransIsoHyper>& schema() {
     static const input::Schema<ViscoTransIsoHyper> schema = makeSchema();
@@ -68,8 +68,8 @@ struct ViscoTransIsoHyper : FibreElasticity {
     state.elasticStress = tensorOf(elastic);
     return stress;
   }
-  /// With y = 1 + sum_k y_k (1 - exp(-dt/t_k)) t_k/dt, tau_e = J s_e, v = tau - y tau_e, and W the spin that h adds to
-  /// the rotation: d tau = y d tau_e + tr h v + W v - v W
+  /// Computes the tangent. With y = 1 + sum_k y_k (1 - exp(-dt/t_k)) t_k/dt, tau_e = J s_e, v = tau - y tau_e, and W
+  /// the spin that h adds to the rotation: d tau = y d tau_e + tr h v + W v - v W
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State& old) const {
     const Matrix3& f = d.deformationGradient;
     const Point at(*this, f);
@@ -87,7 +87,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt(fastStiffening() * initialModulus() / initialDensity);
   }
-  /// All Maxwell elements are springs in a fast wave.
+  /// The speed of a fast wave, in which all Maxwell elements act as springs.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     const Point at(*this, d.deformationGradient);
     return std::sqrt(fastStiffening() * largestModulus(at) * at.j / initialDensity);
@@ -95,22 +95,22 @@ struct ViscoTransIsoHyper : FibreElasticity {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// W of the elastic stress, as in Uintah; the Maxwell elements store and dissipate the rest of the work.
+  /// The energy W of the elastic stress, as in Uintah; the Maxwell elements store and dissipate the rest of the work.
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     return elasticEnergy(d.deformationGradient);
   }
 
  private:
   struct Element {
-    double share;  ///< y_k, 1
-    double time;   ///< t_k, s; 0: the element is omitted
+    double share;  ///< share y_k [1]
+    double time;   ///< t_k [s]; 0: the element is omitted
   };
   Element element(int k) const {
     const std::array<Element, 6> all{{{y1, t1}, {y2, t2}, {y3, t3}, {y4, t4}, {y5, t5}, {y6, t6}}};
     return all[k];
   }
   bool relaxes() const { return std::max({t1, t2, t3, t4, t5, t6}) > 0; }
-  /// Stiffness in a fast deformation, relative to the elastic stiffness.
+  /// Ratio of the stiffness in a fast deformation to the elastic stiffness.
   double fastStiffening() const {
     double sum = 1;
     for (int k = 0; k < 6; ++k)

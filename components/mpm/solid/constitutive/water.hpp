@@ -17,9 +17,9 @@ struct Water {
   static constexpr std::string_view name = "water";
   static constexpr bool strainEnergyIsRate = true;
 
-  double bulkModulus = 0;  ///< K, Pa
-  double viscosity = 0;    ///< mu, Pa s
-  double exponent = 0;     ///< gamma, 1
+  double bulkModulus = 0;  ///< bulk modulus K [Pa]
+  double viscosity = 0;    ///< viscosity mu [Pa s]
+  double exponent = 0;     ///< gamma [1]
 
   static const input::Schema<Water>& schema() {
     static const input::Schema<Water> schema =
@@ -36,9 +36,9 @@ struct Water {
     stress.diagonal().array() -= bulkModulus * (stiffening(d) - 1);
     return stress;
   }
-  /// Wave speed at the start, without gamma, as in Uintah, m/s.
+  /// Initial wave speed [m/s], computed without gamma as in Uintah.
   double initialWaveSpeed(double initialDensity) const { return std::sqrt(bulkModulus / initialDensity); }
-  /// c² = dp/drho
+  /// The wave speed: c² = dp/drho.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     const double j = d.deformationGradient.determinant();
     return std::sqrt(exponent * stiffening(d) * bulkModulus * j / initialDensity);
@@ -46,11 +46,11 @@ struct Water {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// 0 as in Uintah, so that StrainEnergy can be compared.
+  /// Returns 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:
-  /// J^-gamma
+  /// The factor J^-gamma.
   double stiffening(const Deformation& d) const { return std::pow(d.deformationGradient.determinant(), -exponent); }
 };
 static_assert(ConstitutiveModel<Water>);

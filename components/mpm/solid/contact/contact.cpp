@@ -68,7 +68,7 @@ std::optional<Motion> Contact::prescribedMotion(double time) const {
 
 namespace {
 
-/// Whether a contact acts at a node: its master is present, and no material that disables it.
+/// Whether a contact acts at a node: its master is present, and the material that disables the contact is not.
 template <int D>
 bool isAt(const Contact& contact, const Records& records, const Index<D>& node) {
   return isPresent<D>(records, contact.master, node) && !isExcluded<D>(contact, records, node);

@@ -51,10 +51,10 @@ bool slides(Kind kind) { return kind == Kind::friction || kind == Kind::conservi
 bool usesPlanes(Kind kind) {
   return kind == Kind::planeFriction || kind == Kind::colorFriction || kind == Kind::specifiedFriction;
 }
-/// Whether the others follow or meet a master that may be driven.
+/// Whether the other bodies follow or meet a master that may be driven.
 bool hasMaster(Kind kind) { return kind == Kind::rigid || kind == Kind::specified || kind == Kind::specifiedFriction; }
 
-/// An `entry` of variable_friction.
+/// A tag `entry` of variable_friction.
 struct FrictionEntry {
   double color = 0, friction = 0;
 };
@@ -127,7 +127,7 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
   checkPlanes(read, element, diagnostics);
 }
 
-/// Declares the kinds of contact, and the materials that take part.
+/// Declares the kinds of contact and the tag for the materials that take part.
 void addKinds(Schema<ContactSection>& contact) {
   requiredChoiceOrRefusal(
       contact, "type", &ContactSection::kind, kinds, lackingKinds,
@@ -148,7 +148,7 @@ void addKinds(Schema<ContactSection>& contact) {
                 input::between(1, 2))
       .optional("ExcludeMaterial", &ContactSection::excluded, "1",
                 "for rigid, specified, single_velocity: does not act at nodes with this material", input::nonNegative())
-      .ignored("vel_fields", "an older name of materials");
+      .ignored("vel_fields", "an older name of <materials>");
 }
 
 /// Declares the motion of the master, for contacts that have one.
@@ -169,7 +169,7 @@ void addMaster(Schema<ContactSection>& contact) {
       .value("include_rotation", &ContactSection::turns, false, "1",
              "for specified: the master also rotates; each line of <filename> is `time vx vy vz cx cy cz wx wy wz`, "
              "where c is a point on the axis (m) and w the angular velocity (1/s)")
-      .ignored("rigid_material", "an older name of master_material");
+      .ignored("rigid_material", "an older name of <master_material>");
 }
 
 void addFriction(Schema<ContactSection>& contact) {
@@ -202,7 +202,7 @@ const Schema<ContactSection>& contactSchema() {
   return schema;
 }
 
-/// The numbers of a file next to the scene, `columns` per line.
+/// Reads the numbers in a file next to the scene, `columns` per line.
 std::vector<double> readTable(const Element& tag, const std::string& path, std::size_t columns,
                               Diagnostics& diagnostics) {
   std::ifstream file(path);

@@ -7,12 +7,12 @@
 
 namespace tushar::mpm::solid {
 
-/// The `contact` tags among the children of `parent`; those of type null are left out.
+/// Reads the `contact` tags among the children of `parent`; those of type null are omitted.
 std::vector<Contact> readContacts(const input::Element& parent, input::Diagnostics& diagnostics);
 
-/// Prints the manual of these tags, indented by `indent` blanks.
+/// Prints the manual of the `contact` tags, indented by `indent` blanks.
 void describeContacts(std::ostream& out, int indent);
-/// The allowed content of such a tag, for the schemas of editors.
+/// The allowed content of a `contact` tag, for the schemas of editors.
 input::TagForm contactForm();
 
 }  // namespace tushar::mpm::solid

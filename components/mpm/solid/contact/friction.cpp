@@ -8,9 +8,9 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// A smaller traction counts as round-off, Pa.
+/// The smallest traction that does not count as round-off [Pa].
 constexpr double leastTraction = 1e-12;
-/// Smaller mass gradients, kg/m, are not normalised.
+/// The smallest mass gradient that is normalised [kg/m].
 constexpr double leastGradient = 1e-15;
 
 /// All bodies that take part, at one node.
@@ -19,7 +19,7 @@ struct Gathering {
   Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
   double mass = 0, volume = 0;
   Vec<D> normal = Vec<D>::Zero();  ///< normal out of the body with the largest mass gradient; 0 if there is none
-  std::size_t steepest = 0;        ///< that body
+  std::size_t steepest = 0;        ///< index of that body
 };
 
 /// Calls `visit(node)` once for each node of a box at which more than one of these bodies has mass.
@@ -100,7 +100,7 @@ Vec<D> normalOf(const Level& level, const Contact& contact, const Records& recor
   return size > leastGradient ? Vec<D>(normal / size) : normal;
 }
 
-/// Whether the stresses of all bodies at a node are compressive along its normal.
+/// Whether the stresses of all bodies at a node are compressive along the node's normal.
 template <int D>
 bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces& surfaces,
                 const Gathering<D>& all, const Index<D>& node) {
@@ -110,13 +110,14 @@ bool arePressed(const Level& level, const Contact& contact, const Records& recor
   return true;
 }
 
-/// The distance between the mass of the other bodies and that of the body at a node, m.
+/// The distance, at a node, between the centre of mass of this body and that of the other bodies [m].
 template <int D>
 double separation(const Gathering<D>& all, const Vec<D>& position, double mass) {
   return ((all.position - position) / (all.mass - mass) - position / mass).norm();
 }
 
-/// The factor that limits the largest strain in a step by a change of velocity, over all bodies at the node, to 1/2.
+/// The factor by which a change of velocity at a node is reduced, so that it strains no body there by more than 1/2 in
+/// a step.
 template <int D>
 double strainLimit(const Level& level, const Vec<D>& change, double dt, double massRatio) {
   double strain = 0;

@@ -5,19 +5,19 @@
 
 namespace tushar::mpm::solid {
 
-/// A node at which a body touches others.
+/// The contact of a body with others at a node.
 template <int D>
 struct Touch {
   Vec<D> normal;    ///< normal out of the body
-  Vec<D> velocity;  ///< velocity of the body relative to the centre of mass of all, m/s
+  Vec<D> velocity;  ///< velocity of the body relative to the centre of mass of all bodies [m/s]
   bool isPressed;   ///< whether the stress on the surface is compressive
 };
 
 /// The effect of friction on a body at a node.
 template <int D>
 struct FrictionImpulse {
-  Vec<D> change = Vec<D>::Zero();  ///< change of the velocity, m/s
-  double heat = 0;                 ///< kinetic energy dissipated by friction, J/kg
+  Vec<D> change = Vec<D>::Zero();  ///< change of the velocity [m/s]
+  double heat = 0;                 ///< kinetic energy dissipated by friction [J/kg]
 };
 
 /// A body that is pressed against others or approaches them does not penetrate them, and slides as far as friction with
@@ -32,13 +32,14 @@ using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 using RowsOfNodes = std::vector<const data::TouchedRows*>;
 
 /// Applies the impulses of friction to all participating materials, where their volumes and distance satisfy the
-/// conditions of the contact. A change that would strain a cell by more than a half is cut down to that. Adds the heat
-/// to `heat`.
+/// conditions of the contact. A change that would strain a cell by more than 1/2 is reduced to that limit. Adds the
+/// heat to `heat`.
 ///
-/// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of
-/// all others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies,
-/// or where one of two is pressed alone, the sum of momenta changes. Of contacts that keep momentum all have the normal
-/// of the one whose mass changes most, or its opposite, and are pressed where the stresses of all press.
+/// As in Uintah, the normal of a body is half the difference between its mass gradient and the mass-weighted mean of
+/// the gradients of all others (in axisymmetric scenes, of the gradients per cell), and only its own stress determines
+/// whether it is in compression. So the sum of momenta changes with three bodies, or with two of which only one is in
+/// compression. In contacts that conserve momentum, all bodies have the normal of the body with the largest mass
+/// gradient, or its opposite, and count as in compression if the stresses of all are compressive.
 template <int D>
 void applyFriction(const Patch& patch, const Contact& contact, double dt, const RowsOfNodes& rows,
                    const Records& records, const Surfaces& surfaces, const FrictionHeats& heat);

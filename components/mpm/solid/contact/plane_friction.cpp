@@ -12,7 +12,7 @@ namespace {
 
 constexpr int mostSteps = 51;
 constexpr double tolerance = 1e-7;
-/// A smaller mass of a body at a node is ignored, kg; as in Uintah.
+/// A body with less mass than this at a node is ignored there [kg], as in Uintah.
 constexpr double leastMass = 1e-16;
 
 template <int N>
@@ -44,8 +44,8 @@ void eliminate(Square<N>& a, Column<N>& b, int k) {
   }
 }
 
-/// The solution x of a x = b by Gaussian elimination with partial pivoting. (Eigen's takes the compiler ten times as
-/// long.)
+/// The solution x of a x = b by Gaussian elimination with partial pivoting. (Eigen's solver takes ten times as long to
+/// compile.)
 template <int N>
 Column<N> solved(Square<N> a, Column<N> b) {
   for (int k = 0; k < N; ++k) eliminate<N>(a, b, k);
@@ -57,7 +57,7 @@ Column<N> solved(Square<N> a, Column<N> b) {
   return b;
 }
 
-/// A step of the regression: (J^T J + lambda) change = J^T (c - f) - lambda phi.
+/// Performs one step of the regression: (J^T J + lambda) change = J^T (c - f) - lambda phi.
 template <int D>
 Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda, const Column<D + 1>& phi) {
   Square<D + 1> matrix = Square<D + 1>::Zero();
@@ -76,7 +76,7 @@ Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda
   return solved<D + 1>(matrix, right);
 }
 
-/// The material to which the plane at a node belongs, or -1.
+/// Index of the material to which the plane at a node belongs; -1 if there is no plane.
 template <int D>
 int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
   for (std::size_t m = 0; m < planes.size(); ++m)
@@ -84,13 +84,13 @@ int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
   return -1;
 }
 
-/// Whether, at a node, a body extends across the plane into the first one.
+/// Whether, at a node, a body extends across the plane into the body to which the plane belongs.
 template <int D>
 bool overlaps(const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
   return (*planes[m].prominence)[node] <= (*planes[first].prominence)[node];
 }
 
-/// mu at a node.
+/// The friction coefficient mu at a node.
 template <int D>
 double frictionAt(const Contact& contact, const SeparatingPlanes<D>& planes, const Index<D>& node) {
   const auto& table = contact.frictionOfColor;
@@ -105,7 +105,7 @@ double frictionAt(const Contact& contact, const SeparatingPlanes<D>& planes, con
   return share * next->second + (1 - share) * mu0;
 }
 
-/// Whether a body may slide on a master at a node: it takes part, and both are present and overlap.
+/// Whether a body may slide on a master at a node: the body takes part, and both are present and overlap.
 template <int D>
 bool meetsMaster(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes, int first,
                  std::size_t m, const Index<D>& node) {
@@ -114,7 +114,7 @@ bool meetsMaster(const Contact& contact, const Records& records, const Separatin
          overlaps<D>(planes, first, m, node);
 }
 
-/// Calls `visit(node, m, touch)` for each body m that meets the master at a node, moving against it.
+/// Calls `visit(node, m, touch)` for each body m that meets the master at a node and moves against it.
 template <int D, class Visit>
 void forEachTouch(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                   const SeparatingPlanes<D>& planes, Visit&& visit) {

@@ -16,7 +16,7 @@ const Schema<NoDamage>& NoDamage::schema() {
   return schema;
 }
 
-/// The tags for the initial damage.
+/// Declares the tags for the initial damage.
 template <class Self>
 void declareStart(Schema<Self>& tags) {
   tags.value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
@@ -36,7 +36,7 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
         .required("D3", &Self::d3, "1", "factor of the triaxiality")
         .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
         .required("D5", &Self::d5, "1", "factor of the temperature")
-        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller values of damage are treated as 0",
+        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "damage below this value is treated as 0",
                input::nonNegative())
         .ignored("D0", "Uintah does not use it either")
         .ignored("Dc", "Uintah does not use it either");
@@ -65,8 +65,8 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
     tags.value("brittle_damage_initial_threshold", &Self::threshold, 57, "Pa^(1/2)", "r_0", input::positive())
         .value("brittle_damage_fracture_energy", &Self::fractureEnergy, 11.2, "J/m^2", "G_f", input::positive())
         .value("brittle_damage_constant_D", &Self::shape, 0.1, "1", "shape of the softening", input::positive())
-        .value("brittle_damage_max_damage_increment", &Self::greatestStep, 0.1, "1", "largest growth in one step",
-               input::positive())
+        .value("brittle_damage_max_damage_increment", &Self::greatestStep, 0.1, "1",
+               "largest growth of damage in one step", input::positive())
         .ignored("brittle_damage_recoveryCoeff", "damage does not heal")
         .ignored("brittle_damage_printDamage", "save p.damage");
     refuseSwitch(tags, "brittle_damage_allowRecovery", "damage does not heal");
@@ -75,13 +75,13 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
   return schema;
 }
 
-/// A member of the model that Self extends, as a member of Self.
+/// Converts a pointer to a member of ThresholdDamage into a pointer to a member of Self, which extends it.
 template <class Self, class T>
 T Self::*of(T ThresholdDamage::*member) {
   return member;
 }
 
-/// The tags of the criterion, and of the distribution of the threshold among particles.
+/// Declares the tags of the criterion, and of the distribution of the threshold among particles.
 template <class Self>
 void declareThreshold(Schema<Self>& tags) {
   using Base = ThresholdDamage;
@@ -101,9 +101,9 @@ void declareThreshold(Schema<Self>& tags) {
               Distribution::constant, "distribution of the threshold among the particles")
       .value("failure_seed", of<Self>(&Base::seed), 0, "1", "seed of the random thresholds, which differ from Uintah's")
       .choice("scaling", of<Self>(&Base::scalesWithVolume), {{"none", false}, {"kayenta", true}}, false,
-              "small particles are stronger: (reference_volume / volume)^(1/exponent)")
+              "whether small particles are stronger: (reference_volume / volume)^(1/exponent)")
       .optional("reference_volume", of<Self>(&Base::referenceVolume), "m^3",
-                "volume of a particle whose threshold is not scaled", input::positive())
+                "volume of particles whose threshold is not scaled", input::positive())
       .optional("exponent", of<Self>(&Base::exponent), "1", "exponent of the scaling; the Weibull modulus by default",
                 input::positive())
       .value("friction_angle", of<Self>(&Base::frictionAngle), 0, "degrees", "for MohrCoulomb", input::between(0, 89))
@@ -125,7 +125,7 @@ void checkScaling(const ThresholdDamage& read, const Element& element, Diagnosti
 const Schema<ThresholdDamage>& ThresholdDamage::schema() {
   using Self = ThresholdDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "A particle fails at once above a threshold.");
+    Schema<Self> tags("damage_model", "A particle fails immediately above a threshold.");
     declareThreshold(tags);
     tags.required("failure_mean", &Self::mean, "Pa or 1", "mean of the threshold; for MohrCoulomb, of the cohesion",
                   input::positive())
@@ -154,12 +154,12 @@ const Schema<ThresholdVarDamage>& ThresholdVarDamage::schema() {
       Schema<Table>("variable_properties", "Thresholds as a function of p.color, linear between the entries.")
           .list("entry", &Table::entries, entry, "the threshold for one color, in order of increasing color", 1);
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "A particle fails at once above a threshold that depends on its color.");
+    Schema<Self> tags("damage_model", "A particle fails immediately above a threshold that depends on its color.");
     declareThreshold(tags);
     tags.requiredSection("variable_properties", &Self::table, byColor)
         .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
           if (!growsInColor(read.table.entries))
-            diagnostics.error(element, "variable_properties: <color> must increase from one entry to the next");
+            diagnostics.error(element, "variable_properties: <color> does not increase from each entry to the next");
           for (const Entry& one : read.table.entries)
             if (read.distribution == Distribution::weibull && one.deviation <= 0)
               diagnostics.error(element, "failure_distrib weibull needs a <std>, its modulus, in every entry");
@@ -189,12 +189,13 @@ const Schema<Erosion>& erosionSchema() {
   return schema;
 }
 
-/// Checks a damage model against the constitutive model, and copies the elastic constants of the latter.
+/// Checks that a damage model fits the constitutive model, and copies the elastic constants of the constitutive model
+/// into the damage model.
 void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
   const bool isJohnsonCook = std::holds_alternative<JohnsonCookDamage>(material.damage);
   const bool needsRate = isJohnsonCook || std::holds_alternative<HancockMackenzieDamage>(material.damage);
   if (isJohnsonCook && material.meltTemperature <= material.roomTemperature)
-    diagnostics.error(tag, "johnson_cook: <melt_temp> of the material must be greater than its <room_temp>");
+    diagnostics.error(tag, "johnson_cook: <melt_temp> of the material is not greater than its <room_temp>");
   if (needsRate && material.model && offsetOf(*material.model, "p.plasticStrainRate") < 0)
     diagnostics.error(tag, tag.attribute("type").value_or("") +
                                " needs the plastic strain of a constitutive model elastic_plastic_hp, found " +
@@ -212,7 +213,7 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// Refuses stability checks of porous metals with erosion, by which particles fail in Uintah.
+/// Refuses erosion together with a stability check of porous metals; in Uintah, particles fail by this check.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
@@ -225,7 +226,7 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
                                   erosion.where().line));
 }
 
-/// Notes that particles do not fail because of porosity, as metals do in Uintah by default.
+/// Adds a note that porosity makes no particle fail; in Uintah, it makes particles of metals fail by default.
 void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
                          Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");

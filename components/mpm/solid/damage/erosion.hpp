@@ -8,23 +8,23 @@
 
 namespace tushar::mpm::solid {
 
-/// Treatment of failed particles.
+/// What happens to failed particles.
 struct Erosion {
   enum class Algorithm {
-    none,            ///< no change
-    allowNoTension,  ///< pressure only
-    zeroStress,      ///< no stress, and no further deformation
-    allowNoShear,    ///< mean stress only
-    preserveStress   ///< all stress: the particle is only marked
+    none,            ///< nothing changes
+    allowNoTension,  ///< only pressure remains
+    zeroStress,      ///< no stress remains, and the particle does not deform any more
+    allowNoShear,    ///< only mean stress remains
+    preserveStress   ///< all stress remains: the particle is only marked
   };
   Algorithm algorithm = Algorithm::none;
-  /// Decay time of the lost stress, s. It is exact for stresses that are functions of F; those that a model increments
+  /// Decay time of the lost stress [s]. It is exact for stresses that are functions of F; those that a model increments
   /// decay anew in each step.
   double relaxationTime = 1e-99;
 
   bool acts() const { return algorithm != Algorithm::none; }
 
-  /// Remaining stress of a particle, Pa; `sinceFailure` in s.
+  /// Remaining stress of a particle [Pa]; `sinceFailure` is the time since its failure [s].
   Matrix3 bearable(const Matrix3& stress, double sinceFailure) const {
     const double mean = stress.trace() / 3, faded = std::exp(-sinceFailure / relaxationTime);
     switch (algorithm) {
@@ -38,7 +38,7 @@ struct Erosion {
         return stress;
     }
   }
-  /// Reduces the deformation of a step to its change of volume or, for particles without stress, to none.
+  /// Reduces the deformation of a failed particle in a step to its change of volume or, if it has no stress, to none.
   void restrain(const Matrix3& oldDeformation, Matrix3& deformation, Matrix3& velocityGradient) const {
     if (algorithm == Algorithm::zeroStress) {
       deformation = oldDeformation;

@@ -9,7 +9,7 @@ using input::Element;
 
 namespace {
 
-/// Checks that, with use_CBDI_boundary_condition, pressures specify the faces of particles on which they act.
+/// If use_CBDI_boundary_condition is set, checks that pressures specify the faces of particles on which they act.
 void checkCorners(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const auto loads = root.child("PhysicalBC");
   if (!problem.method.loadsAtCorners || !loads) return;
@@ -38,7 +38,7 @@ void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnost
   }
 }
 
-/// Refuses loads that would have no effect because of another setting.
+/// Refuses loads that have no effect because of another setting.
 void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Loads& loads = problem.start.loads;
   if (problem.start.solution && (loads.hasForces() || loads.hasHeat()))

@@ -5,7 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Refuses loads, contacts and settings of the method that conflict with each other. Problems go to the diagnostics.
+/// Refuses loads, contacts and settings of the method that conflict with each other. Reports problems to the
+/// diagnostics.
 void checkProblem(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::mpm::solid

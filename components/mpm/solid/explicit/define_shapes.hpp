@@ -9,10 +9,10 @@ namespace tushar::mpm::solid {
 template <class Shape>
 inline constexpr ExplicitTasks<Shape::dimension> tasksOf = explicitTasks<Shape>();
 
-/// The tasks of shape functions in one to three dimensions.
+/// The tasks for shape functions in one to three dimensions.
 template <template <int> class Shape>
 inline constexpr TasksOfShapes shapesInSpace{&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, &tasksOf<Shape<3>>};
-/// The tasks of shape functions in radius and axis.
+/// The tasks for shape functions in axisymmetric scenes, whose axes are the radius and the axis of symmetry.
 template <template <int> class Shape>
 inline constexpr TasksOfShapes shapesAroundAxis{&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, nullptr};
 

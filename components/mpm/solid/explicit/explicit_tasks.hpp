@@ -13,7 +13,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The bodies of SolidMpm's tasks that use shape functions, for one kind of shape functions in D dimensions.
+/// The bodies of those tasks of SolidMpm that use shape functions, for one kind of shape functions in D dimensions.
 template <int D>
 struct ExplicitTasks {
   ShapedTasks<D> shaped;
@@ -32,9 +32,9 @@ struct ExplicitTasks {
   decltype(&solid::applyXpic<LinearShape<D>>) applyXpic;
   decltype(&solid::computeInternalHeatRate<LinearShape<D>>) computeInternalHeatRate;
   decltype(&solid::addAffineVelocity<LinearShape<D>>) addAffineVelocity =
-      nullptr;  ///< null if not available with these shapes
+      nullptr;  ///< null if it is not available with these shape functions
   decltype(&solid::updateAffineMoment<LinearShape<D>>) updateAffineMoment =
-      nullptr;  ///< null if not available with these shapes
+      nullptr;  ///< null if it is not available with these shape functions
 };
 
 template <class Shape, int D = Shape::dimension>

@@ -48,7 +48,7 @@ struct MpmSection {
   std::string deformationFile, insertionFile;
 };
 
-/// Declares artificial viscosity and damping.
+/// Declares the tags of artificial viscosity and damping.
 void addDissipation(Schema<MpmSection>& mpm) {
   mpm.value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1",
             "artificial viscosity: a pressure that opposes compression")
@@ -62,14 +62,14 @@ void addDissipation(Schema<MpmSection>& mpm) {
              "damping: an acceleration opposed to the velocity", input::nonNegative());
 }
 
-/// Declares limits for single particles and nodes.
+/// Declares the tags of limits for single particles and nodes.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
             "smallest allowed mass of a particle (Uintah removes lighter ones)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
-             "lighter nodes are accelerated only by gravity", input::nonNegative())
+             "nodes lighter than this are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
-                "faster particles are slowed down to 9/10 of this speed", input::positive())
+                "particles faster than this are slowed down to 9/10 of this speed", input::positive())
       .choice(
           "lost_particles", &MpmSection::removesLost, {{"remove", true}, {"stop", false}}, true,
           "what happens when a step turns a particle inside out (det F <= 0) or throws it through a symmetry plane: it "
@@ -80,7 +80,7 @@ void addLimits(Schema<MpmSection>& mpm) {
              "series of L dt up to power n instead");
 }
 
-/// Declares when stresses are updated, and how velocities are transferred to the particles.
+/// Declares the tags that determine when stresses are updated and how velocities are transferred to the particles.
 void addUpdates(Schema<MpmSection>& mpm) {
   mpm.choice("stress_update", &MpmSection::stressUpdate,
              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
@@ -88,7 +88,7 @@ void addUpdates(Schema<MpmSection>& mpm) {
              "the velocity from which stresses are computed: that of the grid at the end of the step (usl), the new "
              "velocity of the particles, interpolated to the grid (musl), or that of the grid at the start (usf)")
       .ours()
-      .value("XPIC2", &MpmSection::xpic, false, "1", "particles are updated by extended PIC of order 2")
+      .value("XPIC2", &MpmSection::xpic, false, "1", "whether particles are updated by extended PIC of order 2")
       .value(
           "UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
           "the velocity that particles contribute to nodes includes their velocity gradient; not with heat conduction")
@@ -103,10 +103,10 @@ void addUpdates(Schema<MpmSection>& mpm) {
              "from older versions of Uintah: true means <stress_update> musl");
 }
 
-/// Declares the prescribed deformation of bodies, and particles that enter later.
+/// Declares the tags of the prescribed deformation of bodies, and of particles that enter later.
 void addPrescribedMotion(Schema<MpmSection>& mpm) {
   mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
-            "all bodies move as prescribed in <PrescribedDeformationFile>, independently of their stress")
+            "whether all bodies move as prescribed in <PrescribedDeformationFile>, independently of their stress")
       .value("PrescribedDeformationFile", &MpmSection::deformationFile, "time_defgrad_rotation", "1",
              "a file with 14 numbers per point in time: time (s), the components of the deformation gradient row by "
              "row, and the angle (degrees) and axis of a rotation since the previous point")
@@ -119,7 +119,7 @@ void addPrescribedMotion(Schema<MpmSection>& mpm) {
   refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max that does not exceed the time between points");
 }
 
-/// Declares geometry, external loads and heat.
+/// Declares the tags of geometry, external loads and heat.
 void addSurroundings(Schema<MpmSection>& mpm) {
   mpm.value("axisymmetric", &MpmSection::axisymmetric, false, "1",
             "x is the radius and y the axis; mass, energy and forces are per radian")
@@ -134,17 +134,18 @@ void addSurroundings(Schema<MpmSection>& mpm) {
              "pressures act at the corners of the faces of particles, whose area changes with F (Sadeghirad, Brannon & "
              "Guilkey 2013). As in Uintah, no pressure acts on particles without a face within 26 degrees of the "
              "surface, and a <torque> acts only where a pressure acts, with four times its value")
-      .value("keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
-             "pressures rotate with the particles that they act on; otherwise they keep their initial direction")
-      .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
+      .value(
+          "keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
+          "whether pressures rotate with the particles on which they act; otherwise they keep their initial direction")
+      .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "whether heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
-             "if heat is conducted, friction heats the materials")
+             "whether friction heats the materials, if heat is conducted")
       .choice("RunMMSProblem", &MpmSection::manufactured,
               {{"none", ""},
                {"AxisAligned", "AxisAligned"},
                {"ExpandingRing", "ExpandingRing"},
                {"GeneralizedVortex", "GeneralizedVortex"}},
-              "", "start from a manufactured solution, and apply its body force")
+              "", "the manufactured solution from which the run starts and whose body force acts")
       .value("withColor", &MpmSection::withColor, false, "1",
              "accepted for compatibility with Uintah: p.color exists if it is saved");
 }
@@ -193,9 +194,9 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "delT_increase_factor",
                                   "temperature_solve"};
 
-/// Refuses a short `cpdi_lcrit`: Uintah shrinks domains with a corner farther from the centre than that many cells,
-/// except for axisymmetric ones. Here none reaches farther than a cell along an axis, so that its corners are at most
-/// 3^(1/2) cells away.
+/// Refuses a small `cpdi_lcrit`. Uintah shrinks domains with a corner farther from the centre than this number of
+/// cells, except in axisymmetric scenes. In Tushar, no domain extends farther than a cell from its centre along an
+/// axis, so that its corners are at most 3^(1/2) cells away.
 void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("cpdi_lcrit");
   if (!given || read.interpolator != Interpolator::cpdi) return;
@@ -208,7 +209,7 @@ void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& d
                       "centre along an axis is shrunk to one cell");
 }
 
-/// Tags of Uintah for features that this method lacks, or always has.
+/// Declares tags of Uintah for features that this method lacks or always has.
 void addForeign(Schema<MpmSection>& mpm) {
   addForeignTags(mpm);
   for (const char* tag : implicitOnly) mpm.ignored(tag, "belongs to the implicit method");
@@ -267,7 +268,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   return method;
 }
 
-/// Whether a step that fails is repeated with half of its length.
+/// Whether a failed step is repeated with half of its length.
 bool repeatsSteps(const Element& root) {
   const auto time = root.child("Time");
   const auto tag = time ? time->child("recompute_timestep") : std::nullopt;
@@ -294,14 +295,14 @@ std::vector<Insertion> readEntering(const MpmSection& read, const Element& root,
   return readInsertions(read.insertionFile, mpm.child("InsertParticlesFile").value_or(mpm).where(), diagnostics);
 }
 
-/// Throws InputError, at the place of <MPM>, if bodies are deformed along an axis that the grid does not use.
+/// Throws InputError at the location of <MPM> if bodies are deformed along an axis that the grid does not use.
 void refuseFlat(const Level& level, const Location& where) {
   if (level.dimension() < 3)
     throw InputError({{where, "MPM/UsePrescribedDeformation",
                        "needs a grid in three dimensions: more than one cell along x, y and z"}});
 }
 
-/// Throws InputError, at the place of <MPM>, if particles would move along an axis that the grid does not use.
+/// Throws InputError at the location of <MPM> if particles would move along an axis that the grid does not use.
 void refuseShifts(const Level& level, const std::vector<Insertion>& insertions, const Location& where) {
   std::array<bool, 3> isThin{true, true, true};
   for (int d = 0; d < level.dimension(); ++d) isThin[level.axis(d)] = false;
@@ -312,14 +313,14 @@ void refuseShifts(const Level& level, const std::vector<Insertion>& insertions, 
                            fmt::format("particles move along {}, along which the grid has one cell", "xyz"[axis])}});
 }
 
-/// The settings of the solids of a scene.
+/// The settings of the solids in a scene.
 struct ReadSolids {
   Interpolator interpolator;
   Problem problem;
-  Location where;  ///< of <MPM>
+  Location where;  ///< location of <MPM>
 };
 
-/// Reads a scene of solids; nothing if it has problems, which all go to the diagnostics.
+/// Reads a scene with solids; returns none if there are problems, which are all reported to the diagnostics.
 std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const MpmSection read = besideGas ? simulation::readOptionalSection(root, mpmSchema(), diagnostics)
@@ -367,7 +368,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   return [read = *read](const Level& level) { return makeComponent(level, read); };
 }
 
-/// The sections of such a scene, for the schemas of editors.
+/// The sections of a scene with solids, for the schemas of editors.
 std::vector<std::vector<simulation::SectionForm>> forms() { return {sectionForms(mpmSchema())}; }
 
 }  // namespace

@@ -5,16 +5,17 @@
 
 namespace tushar::mpm::solid {
 
-/// Solids with explicit time steps, as a part of the component mpm.
+/// Describes solids with explicit time steps, as a part of the component mpm.
 MethodKind kind();
 
 /// Prints the manual of the sections.
 void describe(std::ostream& out);
 
-/// Makes solids in a surrounding medium; if `areRigid`, their stresses exert no force.
+/// Constructs solids in a surrounding medium; if `areRigid`, their stresses exert no force.
 using MakeSurrounded = std::function<std::unique_ptr<Solids>(const Level& level, bool areRigid,
                                                              std::shared_ptr<const Surroundings> surroundings)>;
-/// Reads the solids of a scene that also has a gas; empty if there are problems, which go to the diagnostics.
+/// Reads the solids of a scene that also has a gas; returns an empty function if there are problems, which are reported
+/// to the diagnostics.
 MakeSurrounded readSurrounded(const input::Element& root, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::mpm::solid

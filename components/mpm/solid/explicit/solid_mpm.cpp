@@ -43,7 +43,8 @@ void SolidMpm<D>::scheduleMomentum(TaskList& tasks, Reads stressed) const {
   scheduleHeat(tasks);
 }
 
-/// With the forces of the stresses: Uintah's computeInternalForce. `stressed` reads F and the stress.
+/// Adds the interpolation to the grid, with the forces of the stresses: Uintah's computeInternalForce. `stressed` reads
+/// F and the stress.
 template <int D>
 void SolidMpm<D>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stressed) const {
   const int reach = shapes_.reach;
@@ -102,14 +103,16 @@ void SolidMpm<D>::schedulePrescribedMotion(TaskList& tasks, const NodeLabel<Node
                       with(shapes_.ghostNodes), startTime(), requiresOld(p::x<D>, shapes_.reach), modifies(record));
 }
 
-/// Like scheduleStrainWork, runs only if work is saved or reported; `shaped` reads the F that shape functions follow.
+/// Adds the work of a step, except that of the stresses (see scheduleStrainWork). The tasks of both run only if work is
+/// saved or reported. `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
   scheduleNodalWork(tasks);
   tasks.perMaterial("mpm::measureWork", bodies_->measureWork, problem_.materials, with(problem_.method.commonSize),
                     requiresOld(delT), all<ParticleWork<D>>(shapes_, keeps(), shapedBy(shaped)));
 }
-/// With the gradients and the stresses: Uintah's computeParticleGradients and computeStressTensor.
+/// Adds the update of particles, with the gradients and the stresses: Uintah's computeParticleGradients and
+/// computeStressTensor.
 template <int D>
 void SolidMpm<D>::scheduleUpdateParticles(TaskList& tasks) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", bodies_->interpolateToParticlesAndUpdate,
@@ -118,14 +121,15 @@ void SolidMpm<D>::scheduleUpdateParticles(TaskList& tasks) const {
   scheduleDamage(tasks);
 }
 
-/// The motion without the stress, if the particles of a cell share their change of volume.
+/// Adds first the motion of particles, then the update of F and the stress, because the particles of a cell share one
+/// change of volume.
 template <int D>
 void SolidMpm<D>::scheduleUpdateInCells(TaskList& tasks) const {
   scheduleMoveParticles(tasks, readsOld);
   scheduleComputeStressTensor(tasks, g::record);
 }
 
-/// Updates only x and v; `shaped` reads the F that shape functions follow.
+/// Adds the update of x and v only; `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", bodies_->moveParticles, problem_.materials,
@@ -133,7 +137,7 @@ void SolidMpm<D>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const {
                     all<MotionUpdate<D>>(shapes_.ghostNodes, keepsSizes(), shapedBy(shaped)));
 }
 
-/// Schedules the update that replaces FLIP's velocity; `shaped` reads the F that shape functions follow.
+/// Adds the velocity update that replaces FLIP; `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
   const auto particles = all<Placed<D>>(keepsSizes(), 0, shapedBy(shaped));
@@ -158,8 +162,8 @@ void SolidMpm<D>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
                       record, particles, computes(p::affineMoment));
 }
 
-/// The velocity from which stresses follow, if it differs from that of the motion; `moving` reads that of the
-/// particles.
+/// Adds the tasks that transfer to the nodes the velocity from which stresses are computed, if it differs from that of
+/// the motion; `moving` reads the particles' velocity.
 template <int D>
 void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = shapes_.reach;
@@ -175,7 +179,7 @@ void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) con
   schedulePrescribedMotion(tasks, g::stressRecord);
 }
 
-/// F and the stress, separately from the motion, with the velocity in `record`.
+/// Adds the update of F and the stress, separately from the motion, with the velocity in `record`.
 template <int D>
 void SolidMpm<D>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
   const Method& method = problem_.method;
@@ -192,7 +196,7 @@ void SolidMpm<D>::scheduleShowOnGrid(TaskList& tasks, Reads stressed) const {
                             stressed(p::volume, shapes_.reach), stressed(p::stress, shapes_.reach));
 }
 
-/// The planes along which bodies slide.
+/// Adds the tasks that find the planes along which bodies slide.
 template <int D>
 void SolidMpm<D>::scheduleSeparateBodies(TaskList& tasks) const {
   const auto& [materials, commonSize] = std::tie(problem_.materials, problem_.method.commonSize);
@@ -212,7 +216,7 @@ void SolidMpm<D>::scheduleTransmittedForce(TaskList& tasks) const {
                                all<RigidMotion<D>>(shapes_.reach, problem_.surroundings != nullptr));
 }
 
-/// These tasks run only in scenes that read or save the temperature.
+/// Adds tasks for the temperature, which run only in scenes that read or save it.
 template <int D>
 void SolidMpm<D>::scheduleHeat(TaskList& tasks) const {
   if (!problem_.method.conductsHeat) return;

@@ -6,14 +6,14 @@
 namespace tushar::mpm::solid {
 
 /// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179,
-/// step by step as Uintah takes it, stress last.
+/// with the steps in Uintah's order and stresses updated last.
 ///
-/// solid_mpm.cpp is the schedule and reads as the method; the bodies of its tasks are in tasks/. Those that work with
-/// shape functions come from the interpolator's module. What needs none is in solids_of.cpp.
+/// solid_mpm.cpp contains the schedule and can be read as the method; the bodies of its tasks are in tasks/. Tasks that
+/// use shape functions come from the interpolator's module; all others are in solids_of.cpp.
 template <int D>
 class SolidMpm : public SolidsOf<D> {
  public:
-  /// `bodies` must outlive it.
+  /// `bodies` must outlive this object.
   SolidMpm(Problem problem, const ExplicitTasks<D>& bodies)
       : Base(std::move(problem), bodies.shaped.shape), bodies_(&bodies) {}
 
@@ -46,7 +46,7 @@ class SolidMpm : public SolidsOf<D> {
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
 
-  /// The F with which shape functions deform, if they do; `reads` selects the old or the new one.
+  /// The access to the F that shape functions follow, if they do; `reads` selects the old or the new F.
   auto shapedBy(Reads reads, int ghost = 0) const { return when(shapes_.deform, reads(p::deformationMeasure, ghost)); }
 
   const ExplicitTasks<D>* bodies_;

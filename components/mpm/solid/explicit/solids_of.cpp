@@ -98,7 +98,7 @@ void SolidsOf<D>::scheduleStrainWork(TaskList& tasks) const {
                       modifies(p::work));
 }
 
-/// The mean of the plastic strain around each particle, for the next step.
+/// Adds the average of the plastic strain around each particle, for the next step.
 template <int D>
 void SolidsOf<D>::scheduleNonlocalPlasticity(TaskList& tasks) const {
   const int layers = problem_.method.nonlocalLayers;
@@ -115,7 +115,7 @@ void SolidsOf<D>::scheduleDamage(TaskList& tasks) const {
   if (is_damageable_) solid::scheduleDamage(tasks, problem_.materials, state_);
 }
 
-/// Contacts other than stress-based friction, for the velocities in a record.
+/// Adds contacts other than stress-based friction, for the velocities in a record.
 template <int D>
 void SolidsOf<D>::scheduleContact(TaskList& tasks, const std::string& name, Moment moment,
                                   const NodeLabel<NodeRecord>& record) const {
@@ -134,7 +134,7 @@ void SolidsOf<D>::scheduleContactAtEnd(TaskList& tasks) const {
                         when(transmitsForce(), computes(g::transmittedForce<D>)));
 }
 
-/// The tasks after the forces and stresses of a step, which follow from the motion.
+/// Adds the tasks that follow the forces and stresses of a step.
 template <int D>
 void SolidsOf<D>::scheduleEndOfStep(TaskList& tasks) const {
   if (problem_.method.maximumParticleVelocity)
@@ -157,7 +157,7 @@ void SolidsOf<D>::scheduleEndOfStep(TaskList& tasks) const {
   tasks.relocate(p::x<D>, problem_.materials);
 }
 
-/// Forces that act at the corners of particles.
+/// Adds the forces that act at the corners of particles.
 template <int D>
 void SolidsOf<D>::scheduleCornerLoads(TaskList& tasks) const {
   if (!problem_.method.loadsAtCorners || !isLoaded()) return;
@@ -188,7 +188,7 @@ void SolidsOf<D>::scheduleHeatFlux(TaskList& tasks) const {
                     requiresOld(p::x<D>), requiresOld(p::loadCurves), computes(p::heatFlux));
 }
 
-/// The temperatures of nodes at the end of the step, with the heat of contact and friction.
+/// Adds the temperatures of nodes at the end of the step, with the heat of contact and friction.
 template <int D>
 void SolidsOf<D>::scheduleTemperatureRate(TaskList& tasks) const {
   const bool hasContact = problem_.method.thermalContact;

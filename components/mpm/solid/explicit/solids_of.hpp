@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Reads variables from the start of the step, or as the step has computed them.
+/// Selects whether variables are read from the start of the step, or as computed in the step.
 struct Reads {
   bool isNew;
 
@@ -18,7 +18,7 @@ struct Reads {
 };
 inline constexpr Reads readsOld{false}, readsNew{true};
 
-/// The part of SolidMpm that needs no shape functions.
+/// The part of SolidMpm that does not depend on shape functions.
 template <int D>
 class SolidsOf : public Solids {
  public:
@@ -30,7 +30,7 @@ class SolidsOf : public Solids {
   bool measuresWork() const override { return true; }
 
  protected:
-  /// Forces, volumes and stresses on the nodes, for outputs and measurements.
+  /// Adds forces, volumes and stresses on the nodes, for outputs and measurements.
   virtual void scheduleShowOnGrid(TaskList& tasks, Reads stressed) const = 0;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleCornerLoads(TaskList& tasks) const;
@@ -68,7 +68,7 @@ class SolidsOf : public Solids {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(),
                        [](const Material& material) { return material.transmitsForce; });
   }
-  /// Whether untouched nodes must be 0, because tasks other than the solids' own read them.
+  /// Whether untouched nodes must be 0, because tasks other than those of the solids read them.
   bool clearsAllNodes() const {
     return !problem_.contacts.empty() || problem_.method.loadsAtCorners || problem_.surroundings;
   }
@@ -95,10 +95,10 @@ class SolidsOf : public Solids {
   }
 
   ShapeTraits shapes_;
-  bool keeps_stress_ = false;   ///< some material's stress is not a function of F alone
-  bool is_thermal_ = false;     ///< some material's stress depends on the temperature
-  bool is_damageable_ = false;  ///< particles of some material may fail
-  bool heats_ = false;          ///< the work of a step changes the temperature
+  bool keeps_stress_ = false;   ///< whether some material's stress is not a function of F alone
+  bool is_thermal_ = false;     ///< whether some material's stress depends on the temperature
+  bool is_damageable_ = false;  ///< whether particles of some material may fail
+  bool heats_ = false;          ///< whether the work of a step changes the temperature
 };
 
 extern template class SolidsOf<1>;

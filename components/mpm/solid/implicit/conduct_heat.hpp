@@ -8,12 +8,12 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Heat conduction of a step by backward Euler, for the temperature T' of all nodes:
+/// Heat conduction in a step by backward Euler, for the temperature T' of all nodes:
 ///
 ///     (C_i + dt K_ij) T'_j = C_i T_i,  C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
 ///
-/// where T_i is the mean of the particles over their heat capacities. Materials have one temperature at a node. A side
-/// of the grid keeps the temperature that the scene gives; without one it is insulated.
+/// where T_i is the mean of the particles' temperatures, weighted by their heat capacities. All materials have the same
+/// temperature at a node. A side of the grid has the temperature that the scene specifies; otherwise it is insulated.
 template <int D>
 class NodalHeat {
  public:
@@ -48,12 +48,12 @@ class NodalHeat {
     solvers::addUp(nodes_.unknowns(1), after_);
     return outcome;
   }
-  /// T' - T of a node, K; 0 at nodes without particles.
+  /// Temperature change T' - T of a node [K]; 0 at nodes without particles.
   double change(const Index<D>& node) const {
     const int k = nodes_(nodes_.imageOf(node).node);
     return k < 0 ? 0.0 : after_[k] - before_[k];
   }
-  /// T' of a node, K.
+  /// Temperature T' of a node [K].
   double temperature(const Index<D>& node) const { return after_[nodes_(nodes_.imageOf(node).node)]; }
   const NodeMap<D>& nodes() const { return nodes_; }
 
@@ -61,7 +61,7 @@ class NodalHeat {
   using Touched = std::span<const Touch<D>>;
   struct Point {
     const Material& material;
-    double mass, temperature, volume;  ///< kg, K, m^3
+    double mass, temperature, volume;  ///< A in grad S = A^T grad_0 S: F^-1, or I if the grid is reset
     Matrix3 carried;                   ///< A in grad S = A^T grad_0 S: F^-1, or I where the grid is reset
   };
 
@@ -100,7 +100,7 @@ class NodalHeat {
       given_.push_back(givenAt(nodes_.node(k), sides));
     }
   }
-  /// The temperature that a side of the grid prescribes at a node, K.
+  /// The temperature that a side of the grid prescribes at a node [K].
   std::optional<double> givenAt(const Index<D>& node, const grid::BoundarySides<double>& sides) const {
     const Level& level = nodes_.level();
     for (int d = 0; d < D; ++d)
@@ -132,8 +132,8 @@ class NodalHeat {
     }
     solvers::addUp(nodes_.unknowns(1), right);
   }
-  /// Removes the rows and columns of nodes with a given temperature; the right-hand side includes their effect on other
-  /// nodes.
+  /// Adds a particle. Removes the rows and columns of nodes with a given temperature; the right-hand side includes
+  /// their effect on other nodes.
   void addPoint(double factor, std::span<const int> numbers, std::span<const Vec<D>> slopes, solvers::Matrix& matrix,
                 std::vector<double>& right) const {
     const std::size_t count = numbers.size();
@@ -157,12 +157,13 @@ class NodalHeat {
   const OfRank<HeatedParticles<D>>& particles_;
   bool resets_grid_;
   NodeMap<D> nodes_;
-  std::vector<double> capacity_, before_, after_;  ///< J/K, K, K
-  double least_ = 0;                               ///< J/K, for nodes that particles touch only with gradients
-  std::vector<std::optional<double>> given_;       ///< K
+  std::vector<double> capacity_, before_, after_;  ///< heat capacity [J/K], temperature before and after the step [K]
+  /// Smallest heat capacity of a node, for nodes to which particles contribute only gradients [J/K].
+  double least_ = 0;
+  std::vector<std::optional<double>> given_;  ///< given temperatures [K]
 };
 
-/// The rate of change of the nodal temperatures in the step. Throws NumericalError if the solver fails.
+/// Computes the rate of change of the nodal temperatures in the step. Throws NumericalError if the solver fails.
 template <int D>
 void conductHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
                  const ImplicitSetup<D>& setup, double dt, const OfRank<HeatedParticles<D>>& particles,

@@ -77,7 +77,7 @@ void ImplicitMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.relocate(p::x<D>, problem_.materials);
 }
 
-/// Moves and deforms the particles with the nodes.
+/// Adds the tasks that move and deform the particles with the nodes.
 template <int D>
 void ImplicitMpm<D>::scheduleMovement(TaskList& tasks) const {
   tasks.perMaterial(how_.resetsGrid ? "impm::moveAndStress" : "impm::stressInPlace", moveAndStress<D>,
@@ -97,7 +97,7 @@ void ImplicitMpm<D>::scheduleVelocity(TaskList& tasks) const {
   }
 }
 
-/// The temperature on the nodes, which a scene may save, conduction, and the heat of the step's work.
+/// Adds the temperature on the nodes, which a scene may save, conduction, and the heat of the step's work.
 template <int D>
 void ImplicitMpm<D>::scheduleHeat(TaskList& tasks) const {
   const Vec3& commonSize = problem_.method.commonSize;

@@ -10,7 +10,7 @@ namespace tushar::mpm::solid::implicit {
 template <int D>
 class ImplicitMpm : public Solids {
  public:
-  /// `shapes` must outlive it.
+  /// `shapes` must outlive this object.
   ImplicitMpm(Problem problem, const ImplicitShapes<D>& shapes, ImplicitMethod how);
 
   std::string whyOneLevel() const override { return "implicit steps solve one system over the whole grid"; }
@@ -30,8 +30,8 @@ class ImplicitMpm : public Solids {
 
   const ImplicitShapes<D>* shapes_;
   ImplicitMethod how_;
-  bool heats_;          ///< the work of a step changes the temperature of some material
-  bool is_damageable_;  ///< some material accumulates damage
+  bool heats_;          ///< whether the work of a step changes the temperature of some material
+  bool is_damageable_;  ///< whether some material accumulates damage
 };
 
 }  // namespace tushar::mpm::solid::implicit

@@ -18,7 +18,7 @@ using input::Schema;
 
 namespace {
 
-/// The `MPM` section with implicit time steps.
+/// The section `MPM` for implicit time steps.
 struct Section {
   int integrator = 0, solver = 0, transient = 0;
   bool gimp = false, useLoadCurves = false, withColor = false, axisymmetric = false;
@@ -48,13 +48,14 @@ struct Section {
 void declareSteps(Schema<Section>& schema) {
   schema
       .value("convergence_criteria_disp", &Section::displacement, 1e-10, "1",
-             "Newton's iteration ends when the square of the last change of displacement, relative to that of the "
-             "largest change, is below this",
+             "Newton's iteration ends when the square of the latest change of displacement, relative to the "
+             "square of the largest change, is below this",
              input::positive())
-      .value("convergence_criteria_energy", &Section::energy, 4e-10, "1",
-             "Newton's iteration ends only when the product of the last change and the residual before it, relative to "
-             "the first such product, is also below this",
-             input::positive())
+      .value(
+          "convergence_criteria_energy", &Section::energy, 4e-10, "1",
+          "Newton's iteration ends only when the product of the latest change and the residual before it, relative to "
+          "the first such product, is also below this",
+          input::positive())
       .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",
              "largest number of Newton iterations; if more are needed, the step is repeated with half the time step",
              input::atLeast(1))
@@ -62,13 +63,14 @@ void declareSteps(Schema<Section>& schema) {
              "after this many iterations or more, the next time step is shorter", input::atLeast(1))
       .value("num_iters_to_increase_delT", &Section::increase, 4, "1",
              "after at most this many iterations, the next time step is longer", input::nonNegative())
-      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "factor of a shorter time step",
+      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "factor by which the time step is shortened",
              input::between(0.1, 1))
-      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "factor of a longer time step",
+      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "factor by which the time step is lengthened",
              input::atLeast(1));
 }
 
-/// Notes that nodes do not keep the temperatures of the first step; in Uintah, every step conducts heat from those.
+/// Notes that nodes do not keep the temperatures of the first step; in Uintah, every step conducts heat from those
+/// temperatures.
 void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("interpolateParticleTempToGridEveryStep");
   const auto conducts = element.child("DoImplicitHeatConduction");
@@ -78,7 +80,7 @@ void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagno
                      "first step, as in Uintah");
 }
 
-/// Tags for behaviour that is always enabled in Tushar.
+/// Declares tags for behaviour that is always enabled in Tushar.
 void addFixedHeat(Schema<Section>& mpm) {
   mpm.custom("interpolateParticleTempToGridEveryStep", noteFrozenTemperature,
              {"interpolateParticleTempToGridEveryStep"},
@@ -113,7 +115,7 @@ const Schema<Section>& sectionSchema() {
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
                "accepted for compatibility with Uintah: p.color exists if it is saved")
-        .value("DoImplicitHeatConduction", &Section::heat, false, "1", "heat is conducted, by backward Euler")
+        .value("DoImplicitHeatConduction", &Section::heat, false, "1", "whether heat is conducted, by backward Euler")
         .ignored("DoExplicitHeatConduction", "heat is conducted implicitly if DoImplicitHeatConduction is true")
         .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "conduction is transient")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
@@ -138,7 +140,7 @@ const Schema<Section>& sectionSchema() {
   return schema;
 }
 
-/// Sets the directions of contacts: without a <direction>, they follow their master along all axes.
+/// Sets the directions of contacts: without a <direction>, bodies follow their master along all axes.
 void settleDirections(std::vector<Contact>& contacts) {
   for (Contact& contact : contacts)
     if (!contact.directionIsGiven) contact.direction = {true, true, true};
@@ -185,7 +187,8 @@ bool onlyCounts(const Damage& damage) {
          std::holds_alternative<JohnsonCookDamage>(damage);
 }
 
-/// F-bar changes the F from which the stress follows; rate models would also need a changed velocity gradient.
+/// Refuses F-bar for materials that do not support it: F-bar changes the F from which the stress follows, and rate
+/// models would also need a changed velocity gradient.
 void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
     if (!material.model->supportsFBar() && !isMaster(problem, material.index))
@@ -222,8 +225,8 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <time_integrator> explicit");
 }
 
-/// Notes that metals do not expand thermally, as they do in Uintah's implicit steps in addition to the equation of
-/// state.
+/// Adds a note that temperature affects metals only through the equation of state; in Uintah's implicit steps, it also
+/// strains them.
 void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material")) {
     const auto model = material.child("constitutive_model");
@@ -235,7 +238,8 @@ void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
-/// Refuses boundary conditions that implicit steps would ignore: those of one of several materials, and a heat flux.
+/// Refuses boundary conditions that implicit steps would ignore: conditions for one of several materials, and a heat
+/// flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string id = condition.attribute("id").value_or("all");
@@ -265,7 +269,7 @@ std::unique_ptr<Component> makeComponent(const Level& level, const Problem& prob
   return std::make_unique<ImplicitMpm<3>>(problem, shapesOf<Shape<3>>, method);
 }
 
-/// Reads a scene of solids with implicit time steps; every problem goes to the diagnostics.
+/// Reads a scene with solids and implicit time steps; reports every problem to the diagnostics.
 simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const Section read = simulation::readSection(root, sectionSchema(), diagnostics);

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// The component of solids with implicit time steps, for sus.
+/// Describes the component of solids with implicit time steps to sus.
 simulation::ComponentKind implicitKind();
 
 }  // namespace tushar::mpm::solid::implicit

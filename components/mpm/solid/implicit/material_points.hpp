@@ -10,28 +10,29 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// A node that a particle touches: S_i, its gradient (1/m) and, if axisymmetric, S_i / r (1/m).
+/// A node near a particle: S_i, its gradient [1/m] and, in axisymmetric scenes, S_i / r [1/m].
 template <int D>
 struct NodeTouch {
-  int node = -1;  ///< index in the system; -1: none
+  int node = -1;  ///< index in the system; -1: not in the system
   double s = 0, hoop = 0;
-  Vec<D> gradient, sign;  ///< the sign with which the node moves the particle along each axis
+  Vec<D> gradient, sign;  ///< gradient of S_i, and the sign with which the node moves the particle along each axis
 };
 
 /// The particles of a material on a patch, contiguous in memory, with their state before the step.
 struct PointGroup {
   const Material* material = nullptr;
   int count = 0;
-  std::size_t first = 0;  ///< index of the first among all points of the system
+  std::size_t first = 0;  ///< index of the first particle among all points of the system
   const double *mass = nullptr, *temperature = nullptr;
   const Matrix3 *oldDeformation = nullptr, *oldStress = nullptr;
-  const double* oldState = nullptr;     ///< stateSize numbers each
-  double* newState = nullptr;           ///< stateSize numbers each, at the end of the step; null: not wanted
-  double* strainEnergy = nullptr;       ///< J; null: not wanted
-  double* temperatureChange = nullptr;  ///< K; null: not wanted
+  const double* oldState = nullptr;  ///< state before the step, stateSize numbers for each particle
+  /// State at the end of the step, stateSize numbers for each particle; null: not requested.
+  double* newState = nullptr;
+  double* strainEnergy = nullptr;       ///< strain energy [J]; null: not requested
+  double* temperatureChange = nullptr;  ///< temperature change [K]; null: not requested
 };
 
-/// The particles of a group in one cell, contiguous in memory.
+/// The particles of a group that are in one cell, contiguous in memory.
 struct PointRun {
   const PointGroup* group;
   int from, count;
@@ -50,13 +51,15 @@ class PointStates {
         shares_volume_(sharesVolume),
         f_bar_(count) {}
 
-  std::vector<Matrix3> deformation, stress;  ///< F, 1; Cauchy stress, Pa
-  std::vector<Matrix3> gradient;  ///< of the displacement, with respect to the position at the start of the step, 1
-  std::vector<double> stretch;    ///< factor of F in F-bar, which is passed to the model, 1
+  std::vector<Matrix3> deformation, stress;  ///< deformation gradient F [1], and Cauchy stress [Pa]
+  /// Gradient of the displacement with respect to the position at the start of the step [1].
+  std::vector<Matrix3> gradient;
+  std::vector<double> stretch;  ///< factor of F in F-bar, which is passed to the model [1]
 
   /// Whether F-bar applies to the points of a run: only for models that support it.
   bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }
-  /// F = (I + gradient) F_old of a run. False if a point would be turned inside out or crushed to a tenth.
+  /// Computes F = (I + gradient) F_old of a run. Returns false if the step would turn a point inside out or compress it
+  /// to a tenth of its volume.
   bool deform(const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
       const std::size_t at = run.group->first + k;
@@ -90,8 +93,9 @@ class PointStates {
   }
 
  private:
-  /// F-bar: det(stretch F) is the volume of all points of the run over that at the start of the simulation, so that
-  /// each cell is compressed as a whole (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
+  /// Applies F-bar: det(stretch F) is the ratio of the volume of all points of the run to their volume at the start of
+  /// the simulation, so that each cell is compressed as a whole (de Souza Neto et al., Int. J. Solids Structures 33
+  /// (1996) 3277).
   void shareVolume(const PointRun& run) {
     double start = 0, now = 0;
     const bool shares = sharesVolume(run);
@@ -106,8 +110,8 @@ class PointStates {
       f_bar_[at] = stretch[at] * deformation[at];
     }
   }
-  /// Calls `work(k, points)` for up to stressGroup points at once, with their state at the start of the step; k is the
-  /// index of the first.
+  /// Calls `work(k, points)` for groups of up to stressGroup points, with their state at the start of the step; k is
+  /// the index of the first point of the group.
   template <class Work>
   void forEachChunk(const PointRun& run, Work&& work) {
     const PointGroup& group = *run.group;

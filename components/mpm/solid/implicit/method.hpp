@@ -7,18 +7,21 @@ namespace tushar::mpm::solid::implicit {
 
 /// Settings of implicit steps; names and defaults are Uintah's.
 struct ImplicitMethod {
-  bool dynamic = true;        ///< Newmark's method; otherwise no inertia, and each step ends in equilibrium
-  bool resetsGrid = true;     ///< otherwise the grid moves with the solid, and shape functions do not change
-  bool sharesVolume = false;  ///< F-bar: the particles of a cell share one change of volume, so that they do not lock
+  /// Whether to use Newmark's method; otherwise there is no inertia, and each step ends in equilibrium.
+  bool dynamic = true;
+  /// Whether the grid is reset after each step; otherwise it moves with the solid, and shape functions do not change.
+  bool resetsGrid = true;
+  /// F-bar: whether the particles of a cell share one change of volume, which prevents locking
+  bool sharesVolume = false;
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
-  solvers::LinearSettings heat;   ///< if heat is conducted
-  int iterationsToDecrease = 12;  ///< after a step with at least this many iterations, the next one is shorter
-  int iterationsToIncrease = 4;   ///< after a step with at most this many iterations, the next one is longer
+  solvers::LinearSettings heat;   ///< solver for the conduction of heat
+  int iterationsToDecrease = 12;  ///< number of iterations from which on the next step is shorter
+  int iterationsToIncrease = 4;   ///< number of iterations up to which the next step is longer
   double decreaseFactor = 0.6;
   double increaseFactor = 2;
 
-  /// The largest next time step, s, after one of `dt` [s] that took `iterations` iterations.
+  /// The largest next time step [s], after a step of length `dt` [s] that took `iterations` iterations.
   double nextTimeStep(double dt, int iterations) const {
     if (iterations >= iterationsToDecrease) return decreaseFactor * dt;
     return iterations <= iterationsToIncrease ? increaseFactor * dt : dt;
@@ -43,11 +46,11 @@ inline constexpr NodeLabel<Vec<D>> newAcceleration{"g.newAcceleration", "m/s^2",
 namespace total {
 using namespace solid::total;
 inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1",
-                                                          "Newton iterations of the last step"};
+                                                          "Newton iterations of the latest step"};
 inline constexpr ReductionLabel<Maximum> newtonResidual{
-    "NewtonResidual", "1", "residual at the end of the last step, relative to the largest in that step"};
+    "NewtonResidual", "1", "residual at the end of the latest step, relative to the largest in that step"};
 inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1",
-                                                          "iterations of all linear solves in the last step"};
+                                                          "iterations of all linear solves in the latest step"};
 inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s",
                                                       "next time step, by the number of Newton iterations"};
 }  // namespace total

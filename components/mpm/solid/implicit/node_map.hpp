@@ -9,8 +9,9 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Indices of grid nodes in a system of equations, which contains only the nodes that particles touch. A node beyond a
-/// symmetry plane moves as the mirror image of the one inside; a node on a periodic face is the one on the other side.
+/// Indices of grid nodes in a system of equations, which contains only the nodes near particles. A node beyond a
+/// symmetry plane moves as the mirror image of the one inside; a node on a periodic face is the same node as the one on
+/// the opposite face.
 ///
 /// The rank that owns the cell above a node owns the node. A rank numbers its own nodes first, then those of other
 /// ranks that its particles touch or that lie near its patches.
@@ -43,7 +44,7 @@ class NodeMap {
     return image;
   }
   void touch(const Index<D>& node) { known_[place(node)] = isTouched | isNear; }
-  /// Numbers all nodes that any rank has touched; this rank stores those within `reach` of its patches.
+  /// Numbers all nodes that any rank has marked as touched; this rank stores those within `reach` of its patches.
   void number(const RankPatches& patches, int reach) {
     for (const Patch* patch : patches)
       forEach<D>(patch->nodesWithin(reach), [&](const Index<D>& node) {
@@ -57,10 +58,10 @@ class NodeMap {
   /// Number of nodes that this rank stores.
   int size() const { return static_cast<int>(nodes_.size()); }
   int owned() const { return owned_; }
-  /// The index of a node; -1 if this rank does not store it.
+  /// The index of a node; -1 if this rank does not store the node.
   int operator()(const Index<D>& node) const { return box_.contains(node) ? numbers_[place(node)] : -1; }
   const Index<D>& node(int number) const { return nodes_[number]; }
-  /// Unknowns of `block` numbers for each node.
+  /// The unknowns, with `block` numbers for each node.
   solvers::Unknowns unknowns(int block) const {
     solvers::Unknowns unknowns;
     unknowns.ranks = ranks_;
@@ -69,7 +70,7 @@ class NodeMap {
     unknowns.ghosts = ghosts_;
     return unknowns;
   }
-  /// For each owned node: how many nodes of the system are at most `width` away from it along every axis.
+  /// For each owned node, the number of nodes of the system that are at most `width` away from it along every axis.
   std::vector<int> neighbours(int width) const {
     std::vector<int> counts;
     for (int k = 0; k < owned_; ++k) {
@@ -87,7 +88,7 @@ class NodeMap {
     }
     return counts;
   }
-  /// Position of a node, m.
+  /// Position of a node [m].
   Vec<D> position(int number) const {
     Vec<D> x;
     for (int d = 0; d < D; ++d) x[d] = level_->nodePosition(d, node(number)[d]);
@@ -106,7 +107,7 @@ class NodeMap {
     for (int d = 0; d < D; ++d) wide[d] = node[d];
     return box_.offset(wide);
   }
-  /// Sends the nodes that any rank has touched to all ranks.
+  /// Sends the nodes that any rank has marked as touched to all ranks.
   void shareTouched() {
     std::vector<unsigned char> touched(known_);
     ranks_->merge(std::as_writable_bytes(std::span(touched)), [&](const std::byte* from, std::byte* into) {
@@ -120,7 +121,7 @@ class NodeMap {
     for (int d = 0; d < D; ++d) cell[d] = std::clamp(node[d], 0, level_->cells().extent(d) - 1);
     return level_->grid().ownerOf(level_->grid().patchOf(cell, level_->number()).id());
   }
-  /// Numbers the rank's own nodes, then the ghosts, each in lexicographic order.
+  /// Numbers the rank's own nodes, followed by the ghosts, each in lexicographic order.
   void numberOwners() {
     const int mine = level_->grid().share().rank;
     std::vector<int> counts(level_->grid().share().ranks + 1, 0), ownerOfGhost;

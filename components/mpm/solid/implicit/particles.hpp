@@ -6,37 +6,38 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Accesses of a task to all materials on all patches of a rank: groups[patch][material].
+/// Accesses of a task to all materials on all patches of a rank, as groups[patch][material].
 template <class Group>
 using OfRank = std::vector<std::vector<Group>>;
 
-/// Every particle keeps its size in p.size.
+/// Every particle stores its size in p.size.
 inline constexpr bool keepsSizes = true;
 
-/// The solve of a step reads the state at its start.
+/// Accesses for the solve of a step, which reads the state at the start of the step.
 struct InStep {
   static constexpr bool hasAcceleration = true;
   static auto read(const auto& label) { return requiresOld(label); }
 };
-/// The solve that starts a run reads the state computed by earlier tasks of the same phase, without accelerations.
+/// Accesses for the solve that starts a run. It reads the state that earlier tasks of the same phase compute; there are
+/// no accelerations yet.
 struct AtStart {
   static constexpr bool hasAcceleration = false;
   static auto read(const auto& label) { return requiresNew(label); }
 };
 
-/// Particles of solids and rigid bodies before a step.
+/// Views of particles of solids and rigid bodies before a step.
 template <int D>
 struct SolidParticles {
   Placed<D> placed;
   ParticleView<const double> mass;
   ParticleView<const Vec<D>> velocity;
-  OptionalView<const Vec<D>> acceleration;  ///< none at the start of a run
+  OptionalView<const Vec<D>> acceleration;  ///< acceleration; none at the start of a run
   ParticleView<const Vec<D>> externalForce;
   ParticleView<const double> temperature;
   ParticleView<const Matrix3> deformation, stress;
   ParticleView<const double> state;  ///< internal variables of the constitutive model
 
-  /// `When` is InStep or AtStart.
+  /// `When` is either InStep or AtStart.
   template <class When>
   static SolidParticles from(auto& take, When, const ParticleLabel<double>* state) {
     return {
@@ -52,7 +53,7 @@ struct SolidParticles {
   }
 };
 
-/// Particles that conduct heat.
+/// Views of particles that conduct heat.
 template <int D>
 struct HeatedParticles {
   Placed<D> placed;

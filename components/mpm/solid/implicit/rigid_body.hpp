@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// A rigid body on the grid: the nodes that it touches, and their displacement in the step.
+/// A rigid body on the grid: the nodes near its particles, and their displacement in the step.
 template <int D>
 class RigidBody {
  public:
@@ -30,14 +30,15 @@ class RigidBody {
     }
   }
 
-  /// Displacement of a node in the step, m; none for nodes that the body does not touch.
+  /// Displacement of a node in the step [m]; none for nodes that the body does not touch.
   std::optional<Vec<D>> operator()(const Index<D>& node) const {
     const auto image = nodes_.imageOf(node);
     const int number = nodes_(image.node);
     if (number < 0) return std::nullopt;
     return Vec<D>(image.sign.cwiseProduct(moved_[number]));
   }
-  /// Adds the forces with which the body holds the solid along the contact's `direction`, at the nodes of this rank.
+  /// Adds the forces with which the body holds the solid along the `direction` of the contact, at the nodes of this
+  /// rank.
   void addReaction(const ImplicitSystem<D>& system, VectorSum& reaction) const {
     const std::vector<double> forces = system.reactions();
     for (int k = 0; k < system.nodes().owned(); ++k) {
@@ -48,7 +49,7 @@ class RigidBody {
       reaction.add(level_->template expandDirection<D>(force));
     }
   }
-  /// The solid moves with the body at the nodes that both touch.
+  /// Makes the solid move with the body at the nodes that both touch.
   void prescribe(ImplicitSystem<D>& system) const {
     for (int k = 0; k < system.nodes().size(); ++k)
       if (const auto moved = (*this)(system.nodes().node(k)))
@@ -57,7 +58,7 @@ class RigidBody {
   }
 
  private:
-  /// Calls `visit(node, mass, velocity)` for each particle of the body and each node that gets part of its mass.
+  /// Calls `visit(node, mass, velocity)` for each particle of the body and each node that receives part of its mass.
   template <class Visit>
   void forEachShare(const RankPatches& patches, const ImplicitSetup<D>& setup, int material,
                     const OfRank<SolidParticles<D>>& particles, Visit&& visit) const {

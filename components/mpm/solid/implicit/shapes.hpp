@@ -6,29 +6,29 @@
 #include "components/mpm/solid/implicit/method.hpp"
 #include "components/mpm/solid/tasks/shaped_tasks.hpp"
 
-// Shape functions as implicit steps use them: the solves see the nodes that a particle touches, and are compiled once
-// for each dimension.
+// Shape functions as implicit steps use them: the solves see only the nodes that a particle touches, so that they are
+// compiled only once for each dimension.
 
 namespace tushar::mpm::solid::implicit {
 
-/// A node that a particle touches.
+/// A node to which a particle contributes.
 template <int D>
 struct Touch {
   Index<D> node;
-  double s, hoop;   ///< S_i and, if axisymmetric, S_i / r (1/m)
-  Vec<D> gradient;  ///< of S_i, 1/m
+  double s, hoop;   ///< S_i and, in axisymmetric scenes, S_i / r [1/m]
+  Vec<D> gradient;  ///< gradient of S_i [1/m]
 };
-/// The function that is called with each particle and the nodes that it touches, whose number is always the same.
+/// A function that is called with each particle and the nodes near it; the number of nodes is always the same.
 template <int D>
 using VisitTouches = std::function<void(int p, std::span<const Touch<D>> touched)>;
 
-/// The most nodes that a particle touches: three along each axis.
+/// The largest number of nodes to which a particle contributes: three along each axis.
 template <int D>
 inline constexpr std::size_t mostTouches = D == 1   ? 3
                                            : D == 2 ? 9
                                                     : 27;
 
-/// Calls `visit` for each particle of a patch, cell by cell and by id.
+/// Calls `visit` for each particle of a patch, ordered by cell and id.
 template <class Shape, int D = Shape::dimension>
 void forEachTouched(const Patch& patch, const Placed<D>& placed, const Vec3& commonSize, const VisitTouches<D>& visit) {
   static_assert(!Shape::deforms, "implicit steps support no shape functions that depend on F");
@@ -46,7 +46,7 @@ void forEachTouched(const Patch& patch, const Placed<D>& placed, const Vec3& com
 template <int D>
 struct ImplicitShapes {
   ShapedTasks<D> shaped;
-  int nodes;  ///< number that a particle touches along each axis
+  int nodes;  ///< number of nodes along each axis to which a particle contributes
   void (*forEachTouched)(const Patch& patch, const Placed<D>& placed, const Vec3& commonSize,
                          const VisitTouches<D>& visit);
 
@@ -60,15 +60,15 @@ template <class Shape>
 inline constexpr ImplicitShapes<Shape::dimension> shapesOf{
     .shaped = shapedTasks<Shape>(), .nodes = Shape::Stencil::nodes, .forEachTouched = forEachTouched<Shape>};
 
-/// The settings that all steps of a run share.
+/// The settings that are the same for all steps of a run.
 template <int D>
 struct ImplicitSetup {
   const Problem* problem = nullptr;
   const ImplicitShapes<D>* shapes = nullptr;
   ImplicitMethod how;
-  int stateSize = 1;  ///< internal variables of a particle
+  int stateSize = 1;  ///< number of internal variables of a particle
 
-  /// The contact that makes a material a rigid body, or null.
+  /// The contact that makes a material a rigid body; null if it deforms.
   const Contact* rigidContact(int material) const {
     for (const Contact& contact : problem->contacts)
       if (contact.type == Contact::Type::specified && contact.master == material) return &contact;

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Gives the solid the velocity prescribed at faces, and prevents it from crossing symmetry planes.
+/// Prescribes the velocity of the solid at faces that have one, and prevents the solid from crossing symmetry planes.
 template <int D>
 void prescribeFaces(ImplicitSystem<D>& system, double dt) {
   const Level& level = system.nodes().level();
@@ -48,7 +48,7 @@ std::vector<PointSources<D>> sourcesOf(const RankPatches& patches, const std::ve
   return sources;
 }
 
-/// Why Newton's method failed, where the residual was largest, and what to try.
+/// The error that says why Newton's method failed, where the residual was largest, and what to try.
 template <int D>
 NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<D>& system) {
   const NodeMap<D>& nodes = system.nodes();
@@ -63,7 +63,7 @@ NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<D
       "g.displacement"};
 }
 
-/// The motion of the nodes in a step.
+/// Views of the motion of the nodes in a step.
 template <int D>
 struct NodalMotion {
   NodeView<Vec<D>> increment, acceleration;
@@ -95,7 +95,7 @@ void writeNodes(const Patch& patch, const RigidBody<D>& body, const NodalMotion<
   });
 }
 
-/// The rigid bodies, by material; none for materials that deform.
+/// The rigid bodies, indexed by material; none for materials that deform.
 template <int D>
 using RigidBodies = std::vector<std::optional<RigidBody<D>>>;
 
@@ -114,7 +114,7 @@ RigidBodies<D> constrain(ImplicitSystem<D>& system, const RankPatches& patches, 
   return rigid;
 }
 
-/// The acceleration of the nodes with which Newmark's method starts: 0 if faces or rigid bodies hold them.
+/// Computes the accelerations of nodes with which Newmark's method starts; 0 at nodes that faces or rigid bodies hold.
 template <int D>
 void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& materials,
                        const mpi::Communicator& ranks, const ImplicitSetup<D>& setup, double time,
@@ -134,7 +134,7 @@ void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& 
       });
 }
 
-/// The totals of the solve of a step.
+/// References to the totals of the solve in a step.
 struct SolveTotals {
   Maximum &newtonIterations, &newtonResidual, &krylovIterations;
   Minimum& nextTimeStep;

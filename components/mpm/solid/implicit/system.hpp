@@ -7,15 +7,16 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Particles of an implicit step: positions, shape functions, motion and loads, apart from their state in PointGroup.
+/// Particles in an implicit step: positions, shape functions, motion and loads, apart from their state, which is in
+/// PointGroup.
 template <int D>
 struct PointSources {
   PointGroup group;
   const Patch* patch = nullptr;
   Placed<D> placed;
-  const Vec<D>* velocity = nullptr;       ///< m/s
-  const Vec<D>* acceleration = nullptr;   ///< m/s^2; null in the first step of a run: 0
-  const Vec<D>* externalForce = nullptr;  ///< N
+  const Vec<D>* velocity = nullptr;       ///< velocity [m/s]
+  const Vec<D>* acceleration = nullptr;   ///< acceleration [m/s^2]; null in the first step of a run, for 0
+  const Vec<D>* externalForce = nullptr;  ///< external force [N]
 };
 
 /// The equations of an implicit step: at its end the forces at each node balance,
@@ -29,32 +30,33 @@ struct PointSources {
 template <int D>
 class ImplicitSystem : public solvers::NonlinearProblem {
  public:
-  /// The particles of `patches`, all of this rank; the `ranks` form one system.
+  /// Constructs the system for the particles of `patches`, all patches of this rank; the `ranks` together form one
+  /// system.
   ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitShapes<D>& shapes,
                  const Method& method, const ImplicitMethod& how, double dt, int stateSize,
                  std::vector<PointSources<D>> sources);
 
   const NodeMap<D>& nodes() const { return map_; }
   solvers::Unknowns unknowns() const;
-  /// Sets the displacement of a node along an axis to `value`, m.
+  /// Prescribes the displacement of a node along an axis, `value` [m].
   void prescribe(int node, int d, double value);
-  /// The displacement of each node due to its velocity, m, or the prescribed one.
+  /// The initial guess: the displacement of each node due to its velocity [m], or the prescribed one.
   std::vector<double> guess() const;
 
   bool residual(std::span<const double> u, std::span<double> r) override;
   void tangent(solvers::Matrix& matrix) override;
-  /// Whether the residual of every node is at most 1e-14 of the forces that it sums, where each particle contributes
-  /// its stress at a strain of 1.
+  /// Whether the residual of every node is at most 1e-14 of the sum of the forces on it, where each particle
+  /// contributes its stress at a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
-  /// The acceleration of each node when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 if prescribed,
+  /// The acceleration of each node at the start of a run: (f + m g - sum_p V_p sigma_p grad S) / m, 0 if prescribed,
   /// m/s^2. Newmark's rule needs it: a load that acts from the start would otherwise lose half a step of its momentum.
   std::vector<double> startingAcceleration();
 
-  /// The forces at the nodes of this rank that keep their prescribed displacements, N; 0 along free axes.
+  /// The forces that enforce the prescribed displacements, at the nodes of this rank [N]; 0 along free axes.
   std::vector<double> reactions() const;
 
-  /// Acceleration of a node that follows from its displacement in the step, m/s^2; 0 without inertia.
+  /// Acceleration of a node, computed from its displacement in the step [m/s^2]; 0 without inertia.
   Vec<D> acceleration(int node, std::span<const double> u) const;
   Vec<D> displacement(int node, std::span<const double> u) const {
     return Eigen::Map<const Vec<D>>(u.data() + D * node);
@@ -74,10 +76,11 @@ class ImplicitSystem : public solvers::NonlinearProblem {
 
   /// Sums over the particles at a node of the system, in the order in which gatherNodes packs them.
   struct Node {
-    double mass = 0, volume = 0;  ///< kg, m^3 at the start of the simulation
-    double rigidity = 0;          ///< N, sum of the forces of particles at a strain of 1
-    Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();  ///< m/s, m/s^2, N
-    double support = 0;  ///< N/m, stiffness of a weak spring to where the velocity takes the node
+    double mass = 0, volume = 0;  ///< mass [kg], and volume at the start of the simulation [m^3]
+    double rigidity = 0;          ///< sum of the forces that particles would exert at a strain of 1 [N]
+    /// Velocity [m/s], acceleration [m/s^2], force [N].
+    Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();
+    double support = 0;  ///< stiffness [N/m] of a weak spring that pulls the node to where its velocity takes it
   };
   static constexpr int sums_ = 3 + 3 * D;
 
@@ -97,7 +100,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// Adds the stiffness between nodes to the matrix, without the rows and columns of prescribed displacements.
   void addStiffness(std::span<const int> numbers, Local& stiffness, solvers::Matrix& matrix) const;
   void addRunStiffness(const PointRun& run, solvers::Matrix& matrix);
-  /// The indices of the touches_ nodes of a point.
+  /// The indices of the nodes near a point; there are touches_ of them.
   std::array<int, mostTouches<D>> numbersOf(std::size_t point) const;
   Rows volumeRow(std::size_t point) const;
   Rows volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const;
@@ -106,7 +109,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   bool isPrescribed(int node, int d) const { return prescribed_[D * node + d] != 0; }
 
   const ImplicitShapes<D>& shapes_;
-  int touches_;  ///< nodes of each point
+  int touches_;  ///< number of nodes near each point
   Method method_;
   ImplicitMethod how_;
   double dt_;
@@ -117,14 +120,14 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     std::size_t source;
     int from, count;
   };
-  std::vector<Run> runs_;  ///< cell by cell: the order of every sum, for any patches
+  std::vector<Run> runs_;  ///< particles cell by cell: the order of every sum, for any patches
   std::vector<NodeTouch<D>> touch_;
   PointStates states_;
   std::vector<Node> node_;
   std::vector<char> prescribed_;
   std::vector<double> prescribed_value_;
-  std::vector<double> held_;  ///< the part of this rank in reactions, N
-  double stiffest_ = 0;       ///< greatest rho c^2 V / h^2 of all particles at the start of the simulation, N/m
+  std::vector<double> held_;  ///< contribution of this rank to the reactions [N]
+  double stiffest_ = 0;       ///< largest rho c^2 V / h^2 of all particles at the start of the simulation [N/m]
 };
 
 }  // namespace tushar::mpm::solid::implicit

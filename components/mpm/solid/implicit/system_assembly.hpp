@@ -155,8 +155,8 @@ void ImplicitSystem<D>::measureStiffness() {
   stiffest_ = map_.ranks().max(stiffest_) / (h * h);
 }
 
-/// Supports nodes with less than a millionth of a cell's volume of material, since they may have almost no stiffness
-/// along some axis.
+/// Adds weak springs to nodes with less than a millionth of a cell's volume of material, because they may have almost
+/// no stiffness along some axis.
 template <int D>
 void ImplicitSystem<D>::supportNodes() {
   for (Node& node : node_)
@@ -225,7 +225,7 @@ bool ImplicitSystem<D>::residual(std::span<const double> u, std::span<double> r)
   return admissible;
 }
 
-/// Adds the internal forces; false if a point would be inverted.
+/// Adds the internal forces; returns false if a point would be inverted.
 template <int D>
 bool ImplicitSystem<D>::addInternalForces(std::span<const double> u, std::span<double> r) {
   bool admissible = true;

@@ -10,7 +10,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// The nine numbers of the displacement gradient for a unit displacement of each node that a point touches.
+/// The nine components of the displacement gradient for a unit displacement of each node near a point.
 template <int D>
 auto ImplicitSystem<D>::strainOf(std::size_t point) const -> Strain {
   const Level& level = map_.level();
@@ -28,7 +28,7 @@ auto ImplicitSystem<D>::strainOf(std::size_t point) const -> Strain {
 }
 
 /// Adds V0 Bᵀ a B / stretch, where B is strainOf and a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL. A column of B has
-/// at most D numbers, and one more of the hoop: only these are multiplied.
+/// at most D non-zero numbers, and one more for the hoop strain; only these are multiplied.
 template <int D>
 void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Matrix9& tangent, Local& stiffness) const {
   const std::size_t at = group.first + k;
@@ -41,7 +41,8 @@ void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Mat
   std::array<int, D> axis;
   for (int d = 0; d < D; ++d) axis[d] = sceneAxis<D>(map_.level(), d);
   const NodeTouch<D>* touch = touchesOf(at);
-  /// The sum over B's column of component i of a node, from `sum` on, times what belongs to its rows.
+  /// The sum over the components in B's column of component i of a node, starting from `sum`, each times the value for
+  /// its row.
   const auto times = [&](const NodeTouch<D>& node, int i, const auto& rows, auto sum) {
     for (int j = 0; j < D; ++j) sum += rows(3 * axis[i] + axis[j]) * node.gradient[j];
     if (i == 0 && node.hoop != 0) sum += rows(8) * node.hoop;
@@ -62,15 +63,15 @@ void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Mat
     }
 }
 
-/// The row of ln det F: its change for a unit displacement of each node that a point touches, 1/m.
+/// The row of ln det F: its change for a unit displacement of each node near a point [1/m].
 template <int D>
 auto ImplicitSystem<D>::volumeRow(std::size_t point) const -> Rows {
   const Matrix3 inverse = (Matrix3::Identity() + states_.gradient[point]).inverse().transpose();
   return strainOf(point).transpose() * Eigen::Map<const Vector9>(inverse.data());
 }
 
-/// The nodal forces of a point for a unit change of ln det(stretch F) at its own F, N: V0 Bᵀ q F_oldᵀ with
-/// q = (dP/dF F / stretch - 2 P) / 3.
+/// The nodal forces of a point for a unit change of ln det(stretch F) at its own F [N]: V0 Bᵀ q F_oldᵀ with q = (dP/dF
+/// F / stretch - 2 P) / 3.
 template <int D>
 auto ImplicitSystem<D>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const -> Rows {
   const std::size_t at = group.first + k;
@@ -102,8 +103,8 @@ void ImplicitSystem<D>::addStiffness(std::span<const int> numbers, Local& stiffn
   matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
 }
 
-/// Points that follow each other and touch the same nodes, as those of a cell do with linear functions, are added
-/// together.
+/// Adds the stiffness of the points of a run. Consecutive points that touch the same nodes are added together, such as
+/// those of a cell with linear shape functions.
 template <int D>
 void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& matrix) {
   const PointGroup& group = *run.group;
@@ -129,7 +130,7 @@ void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& ma
   if (shares) addSharedStiffness(run, forces, matrix);
 }
 
-/// The stiffness of the points of a run against their common change of volume.
+/// Adds the stiffness of the points of a run against their common change of volume.
 template <int D>
 void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces,
                                            solvers::Matrix& matrix) const {
@@ -166,7 +167,7 @@ void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vecto
   }
 }
 
-/// Inertia, weak springs, and diagonal entries for prescribed displacements that are as stiff as the others.
+/// Adds inertia and weak springs and, for prescribed displacements, diagonal entries that are as stiff as the others.
 template <int D>
 void ImplicitSystem<D>::addDiagonals(solvers::Matrix& matrix) const {
   for (int k = 0; k < map_.owned(); ++k) {

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// A nodal field at a particle: sum_i S_i f_i, and the gradient in x, y, z.
+/// A nodal field interpolated to a particle: sum_i S_i f_i, and the gradient in x, y, z.
 template <int D>
 std::pair<Vec<D>, Matrix3> interpolated(const Level& level, std::span<const Touch<D>> touched,
                                         const NodeView<const Vec<D>>& field) {
@@ -22,7 +22,7 @@ std::pair<Vec<D>, Matrix3> interpolated(const Level& level, std::span<const Touc
   return {value, gradient};
 }
 
-/// Particles that move and deform in a step.
+/// Views of particles that move and deform in a step.
 template <int D>
 struct Movement {
   NodeView<const Vec<D>> increment;  ///< displacement in the step
@@ -30,12 +30,13 @@ struct Movement {
   ParticleView<const double> mass, temperature;
   ParticleView<const Matrix3> oldDeformation, oldStress;
   ParticleView<const double> oldState;
-  OptionalView<const Vec<D>> oldDisplacement;  ///< if the grid moves with the solid
+  /// Displacement of the grid before the step, if the grid moves with the solid.
+  OptionalView<const Vec<D>> oldDisplacement;
   ParticleView<Vec<D>> newX;
-  OptionalView<Vec<D>> displacement;  ///< if the grid moves with the solid
+  OptionalView<Vec<D>> displacement;  ///< displacement of the grid after the step, if the grid moves with the solid
   ParticleView<Matrix3> deformation, stress;
   ParticleView<double> state, volume, strainEnergy;
-  OptionalView<double> temperatureChange;  ///< if the work of the step causes heating
+  OptionalView<double> temperatureChange;  ///< temperature change, if the work of the step causes heating
 
   static Movement from(auto& take, int ghostNodes, bool resetsGrid, bool heats, const ParticleLabel<double>* state) {
     return {.increment = take(requiresNew(g::increment<D>, ghostNodes)),
@@ -57,7 +58,8 @@ struct Movement {
   }
 };
 
-/// F_p = (I + G_p) F_p of the particles of a patch, with the gradient G_p in `states`, and the stress that follows.
+/// Computes F_p = (I + G_p) F_p of the particles of a patch, with the gradient G_p in `states`, and the stress that
+/// follows.
 template <int D>
 void stressOfStep(const Patch& patch, const Material& material, PointStates& states, const Movement<D>& m) {
   const PointGroup group{.material = &material,
@@ -83,8 +85,8 @@ void stressOfStep(const Patch& patch, const Material& material, PointStates& sta
   }
 }
 
-/// x_p += sum_i S_i u_i,  F_p = (I + sum_i u_i grad S_i) F_p, and the stress that follows. Where the grid moves with
-/// the solid, x_p stays, sum_i S_i u_i adds to the displacement of the particle, and F_p += sum_i u_i grad_0 S_i.
+/// Computes x_p += sum_i S_i u_i,  F_p = (I + sum_i u_i grad S_i) F_p, and the stress that follows. If the grid moves
+/// with the solid, x_p stays, sum_i S_i u_i adds to the displacement of the particle, and F_p += sum_i u_i grad_0 S_i.
 template <int D>
 void moveAndStress(const Patch& patch, const Material& material, const ImplicitSetup<D>& setup, double dt,
                    const Movement<D>& m) {
@@ -106,7 +108,7 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
   stressOfStep(patch, material, states, m);
 }
 
-/// Particles whose velocity follows Newmark's method.
+/// Views of particles whose velocity follows Newmark's method.
 template <int D>
 struct NewmarkUpdate {
   NodeView<const Vec<D>> nodalAcceleration;
@@ -124,7 +126,7 @@ struct NewmarkUpdate {
   }
 };
 
-/// Newmark: v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i.
+/// Computes Newmark's update, v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i.
 template <int D>
 void advanceVelocity(const Patch& patch, const Material&, const ImplicitSetup<D>& setup, double dt,
                      const NewmarkUpdate<D>& u) {
@@ -134,7 +136,8 @@ void advanceVelocity(const Patch& patch, const Material&, const ImplicitSetup<D>
   });
 }
 
-/// Without inertia: v_p = (x'_p - x_p) / dt, with positions or displacements for x_p.
+/// Computes the update without inertia, v_p = (x'_p - x_p) / dt, where x_p and x'_p are positions or displacements
+/// before and after the step.
 template <int D>
 void meanVelocity(const Patch&, const Material&, double dt, ParticleView<const Vec<D>> before,
                   ParticleView<const Vec<D>> after, ParticleView<Vec<D>> velocity, ParticleView<Vec<D>> acceleration) {
@@ -144,13 +147,13 @@ void meanVelocity(const Patch&, const Material&, double dt, ParticleView<const V
   }
 }
 
-/// a_p = 0 when a run without inertia starts.
+/// Sets a_p = 0 when a run without inertia starts.
 template <int D>
 void startAtRest(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<Vec<D>> acceleration) {
   for (int p = 0; p < mass.owned(); ++p) acceleration[p] = Vec<D>::Zero();
 }
 
-/// For Newmark's method: a_p = sum_i S_i a_i when a run starts.
+/// Sets a_p = sum_i S_i a_i when a run with Newmark's method starts.
 template <int D>
 void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& setup, NodeView<const Vec<D>> nodal,
                    ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> size, ParticleView<Vec<D>> acceleration) {
@@ -160,7 +163,7 @@ void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& 
   });
 }
 
-/// With inertia: limits the next step so that no particle moves by more than .8 of a cell along any axis at its present
+/// With inertia: limits the next step so that no particle moves by more than .8 of a cell along any axis at its current
 /// velocity.
 template <int D>
 void limitBySpeed(const Patch& patch, const Material&, ParticleView<const Vec<D>> velocity, Minimum& dt) {
@@ -170,7 +173,7 @@ void limitBySpeed(const Patch& patch, const Material&, ParticleView<const Vec<D>
         dt.add(0.8 * patch.level().spacing(d) / speed, "the speed of particles");
 }
 
-/// The force of loads on each particle at the end of the step.
+/// Computes the force of loads on each particle at the end of the step.
 template <int D>
 void applyLoadsAtEnd(const Patch& patch, const Material& material, const Loads& loads, double time, double dt,
                      ParticleView<const Vec<D>> x, ParticleView<const double> mass, ParticleView<const int> loadCurves,

@@ -14,10 +14,10 @@ namespace {
 
 using input::Diagnostics;
 
-/// Numbers of an insertion in a file.
+/// Number of values that describe an insertion in a file.
 constexpr std::size_t insertionSize = 8;
 
-/// The numbers of a line.
+/// Reads the numbers in a line.
 std::vector<double> numbersOf(const std::string& line, const Location& where, Diagnostics& diagnostics) {
   std::vector<double> numbers;
   std::istringstream words(line);

@@ -8,19 +8,20 @@
 
 namespace tushar::mpm::solid {
 
-/// At one time, the particles of one color move by a distance and get a new velocity.
+/// An event at one time: the particles of one color move by a distance and get a new velocity.
 struct Insertion {
-  double time = 0;  ///< s
+  double time = 0;  ///< time [s]
   double color = 0;
-  Vec3 shift = Vec3::Zero();     ///< m
-  Vec3 velocity = Vec3::Zero();  ///< m/s
+  Vec3 shift = Vec3::Zero();     ///< shift [m]
+  Vec3 velocity = Vec3::Zero();  ///< velocity [m/s]
 
-  /// Whether it happens in the step of `dt` s that begins at `start`.
+  /// Whether the insertion happens in the step of length `dt` [s] that begins at `start` [s].
   bool isIn(double start, double dt) const { return start <= time && time < start + dt; }
 };
 
-/// Reads insertions, each with 8 numbers: time (s), color, the components of the shift (m) and of the new velocity
-/// (m/s). Problems go to the diagnostics, with file and line; one of the file as a whole to the place that names it.
+/// Reads insertions, each with 8 numbers: time [s], color, the components of the shift [m] and of the new velocity
+/// [m/s]. Reports problems to the diagnostics with file and line, and problems of the whole file at the tag that names
+/// the file.
 std::vector<Insertion> readInsertions(const std::string& path, const Location& named, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::mpm::solid

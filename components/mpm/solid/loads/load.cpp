@@ -26,7 +26,7 @@ int thinAxis(const input::Box& box) {
 
 bool isEnd(const input::Cylinder& cylinder) { return cylinder.cylinderEnd || cylinder.axisymmetricEnd; }
 
-/// A point seen from a cylinder: height above the bottom, distance and direction from the axis.
+/// A point relative to a cylinder: height above the bottom, distance and direction from the axis.
 struct CylinderPlace {
   double height, radius;
   Vec3 outwards;
@@ -40,7 +40,7 @@ struct CylinderPlace {
   }
 };
 
-/// Calls `visit(point)` for the position of each particle of a body, m.
+/// Calls `visit(point)` for the position [m] of each particle of a body.
 template <int D, class Visit>
 void forEachParticle(const grid::Level& level, const Body& body, Visit&& visit) {
   if (body.seeds) {

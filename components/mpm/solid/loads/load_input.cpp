@@ -36,7 +36,7 @@ struct PhysicalBC {
   LoadsSection mpm;
 };
 
-/// The box of a load; unlike that of a body it may be flat.
+/// The schema of the box on which a load acts; unlike the box of a body, it may be flat.
 const Schema<input::Box>& boxSchema() {
   static const Schema<input::Box> schema = Schema<input::Box>("box", "A flat or thin box.")
                                                .foreignAttribute("label", "name")
@@ -68,7 +68,7 @@ void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagn
 
 struct Place {};
 
-/// The surface of a load, which readSurface reads.
+/// The schemas of the surfaces that readSurface reads.
 std::vector<input::Alternative> placeAlternatives() {
   static const Schema<Place> schema = [] {
     std::vector<input::TagForm> forms;
@@ -123,7 +123,8 @@ Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string&
       .ignored("res", "the number of loaded particles is determined automatically");
 }
 
-/// The number of a load curve must be the position of its load in the scene, because Uintah uses them interchangeably.
+/// Checks that the number of a load curve is the position of its load in the scene, because Uintah uses the two
+/// interchangeably.
 void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
   int place = 0;
   for (const Element& load : loads.children()) {

@@ -4,12 +4,12 @@
 
 namespace tushar::mpm::solid {
 
-/// The loads of the `PhysicalBC` section, if the scene has one; loads with a load curve only if `usesCurves`.
+/// Reads the loads in the section `PhysicalBC`, if the scene has one; loads with a load curve only if `usesCurves`.
 Loads readLoads(const input::Element& root, bool usesCurves, input::Diagnostics& diagnostics);
 
 /// Prints the manual of the `PhysicalBC` section.
 void describeLoads(std::ostream& out);
-/// The schema of the section.
+/// The schema of the section `PhysicalBC`.
 const input::SchemaBase& loadsForm();
 
 }  // namespace tushar::mpm::solid

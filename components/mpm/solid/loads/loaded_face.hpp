@@ -12,23 +12,24 @@ namespace tushar::mpm::solid {
 
 /// The face of a particle on which a pressure acts.
 struct LoadedFace {
-  std::array<Vec3, 4> corners;  ///< m
-  double stretch;               ///< ratio of its area to that at the start
+  std::array<Vec3, 4> corners;  ///< corners [m]
+  double stretch;               ///< ratio of the face's area to its initial area
 };
 
-/// A particle as a parallelepiped: its centre, and its edges at the start and now, one per column, m.
+/// A particle as a parallelepiped: its centre, and its initial and current edges, one per column [m].
 struct ParticleBox {
   Vec3 middle;
   Matrix3 startEdges, edges;
 
-  /// The face towards a normal, if there is one whose edge forms an angle with it with a cosine above 0.9.
+  /// The face towards a normal, if there is one: the face whose edge is so nearly parallel to the normal that the
+  /// cosine of their angle exceeds 0.9.
   std::optional<LoadedFace> face(const Vec3& normal) const;
 };
 
-/// The forces of a particle's loads at the corners of its face.
+/// The forces of a particle's loads at the corners of one of its faces.
 struct CornerLoad {
-  Vec3 force;                   ///< N, a quarter of it at each corner
-  std::array<Vec3, 4> corners;  ///< m
+  Vec3 force;                   ///< force [N], of which a quarter acts at each corner
+  std::array<Vec3, 4> corners;  ///< corners [m]
 };
 
 /// The pressures and torques on a particle; `packed` contains their numbers in the form of p.loadCurveID. Without a

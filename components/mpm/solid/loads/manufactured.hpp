@@ -10,20 +10,20 @@ namespace tushar::mpm::solid {
 
 /// The constants of a linear or neo-Hookean elastic material.
 struct Elastic {
-  double lambda, shear;  ///< Lamé's constants, Pa
-  double young;          ///< Young's modulus, Pa
-  double density;        ///< at the start, kg/m^3
+  double lambda, shear;  ///< Lamé's constants [Pa]
+  double young;          ///< Young's modulus [Pa]
+  double density;        ///< at the start [kg/m^3]
 };
 
-/// The constants of a material whose model is cnh_mms.
+/// The constants of a material with the model cnh_mms.
 Elastic elasticOf(const Material& material);
 
-/// A manufactured solution: a prescribed motion, and the body force that makes a neo-Hookean solid move like that: a
+/// A manufactured solution: a prescribed motion, and the body force with which a neo-Hookean solid moves in this way: a
 /// reference for errors. Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
 class Manufactured {
  public:
   virtual ~Manufactured() = default;
-  /// The greatest displacement at the start, m.
+  /// The largest displacement at the start [m].
   virtual double farthestAtStart() const { return 0; }
   /// Displacement [m] and velocity [m/s] of the point that started at X [m].
   virtual Vec3 displacement(const Elastic& elastic, const Vec3& start, double time) const = 0;
@@ -33,7 +33,7 @@ class Manufactured {
   virtual Vec3 bodyForce(const Elastic& elastic, const Vec3& start, double time) const = 0;
 };
 
-/// AxisAligned, ExpandingRing or GeneralizedVortex; null for any other name.
+/// Makes AxisAligned, ExpandingRing or GeneralizedVortex; returns null for any other name.
 std::shared_ptr<const Manufactured> makeManufactured(const std::string& name);
 
 }  // namespace tushar::mpm::solid

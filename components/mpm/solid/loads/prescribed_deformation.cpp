@@ -18,7 +18,7 @@ namespace {
 
 using input::Diagnostics;
 
-/// Numbers of a point in a file.
+/// Number of values that describe a point in a file.
 constexpr std::size_t pointSize = 14;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
@@ -27,14 +27,14 @@ Matrix3 rotation(double angle, const Vec3& axis) {
   return Eigen::AngleAxisd(radians(angle), Eigen::Vector3d(axis)).toRotationMatrix();
 }
 
-/// W x = axis × x
+/// The matrix W with W x = axis × x.
 Matrix3 spin(const Vec3& axis) {
   Matrix3 w;
   w << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
   return w;
 }
 
-/// The numbers of a file, and the line of each.
+/// The numbers in a file, and the line of each.
 struct Numbers {
   std::vector<double> values;
   std::vector<int> lines;
@@ -89,11 +89,11 @@ PrescribedDeformation::PrescribedDeformation(std::vector<Point> points) : points
   for (const Point& point : points_) turned_.push_back(turned = rotation(point.angle, point.axis) * turned);
 }
 
-/// The factors of F and of its rate.
+/// The factors of F and of its rate at one time.
 struct PrescribedDeformation::Moment {
-  Matrix3 stretched, rate;  ///< F_s, and its derivative, 1/s
+  Matrix3 stretched, rate;  ///< F_s, and its time derivative [1/s]
   Matrix3 turned, now;      ///< Q_0 and Q
-  Matrix3 spin;             ///< dQ/dt Q^T, 1/s
+  Matrix3 spin;             ///< dQ/dt Q^T [1/s]
 };
 
 PrescribedDeformation::Moment PrescribedDeformation::at(double time) const {
@@ -113,7 +113,7 @@ Matrix3 PrescribedDeformation::deformation(double time) const {
   return m.now * m.turned * m.stretched;
 }
 
-/// L = dQ/dt Q^T + (Q Q_0) dF_s/dt F_s^-1 (Q Q_0)^T
+/// Computes L = dQ/dt Q^T + (Q Q_0) dF_s/dt F_s^-1 (Q Q_0)^T.
 Matrix3 PrescribedDeformation::velocityGradient(double time) const {
   const Moment m = at(time);
   const Matrix3 turned = m.now * m.turned;

@@ -7,8 +7,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The force of loads on each particle at the start of the step. With `deformation` pressures turn with the body, by
-/// the rotation R of F = R U.
+/// Computes the force of loads on each particle at the start of the step. If `deformation` is given, pressures rotate
+/// with the body, by R of F = R U.
 template <int D>
 void applyExternalLoads(const Patch& patch, const Material&, const Loads& loads, double time,
                         ParticleView<const Vec<D>> x, ParticleView<const double> mass,
@@ -31,7 +31,7 @@ void applyExternalLoads(const Patch& patch, const Material&, const Loads& loads,
   }
 }
 
-/// The heat of loads on each particle at the start of the step, W.
+/// Computes the heat flow of loads into each particle at the start of the step [W].
 template <int D>
 void applyHeatFlux(const Patch& patch, const Material&, const Loads& loads, double time, ParticleView<const Vec<D>> x,
                    ParticleView<const int> loadCurves, ParticleView<double> heatFlux) {
@@ -47,7 +47,7 @@ void applyHeatFlux(const Patch& patch, const Material&, const Loads& loads, doub
   }
 }
 
-/// The body force of a manufactured solution on each particle at the start of the step.
+/// Computes the body force of a manufactured solution on each particle at the start of the step.
 template <int D>
 void applyManufacturedForce(const Patch& patch, const Material& material, const Manufactured* solution, double time,
                             ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> displacement,

@@ -6,8 +6,9 @@
 
 namespace tushar::mpm::solid {
 
-/// The force of a body on a side of the grid, - sum_i f_i over the nodes of the side, and the area that the body covers
-/// there, 2 sum_i V_i / h. showForce computes f_i and V_i. Sides across axes that the grid does not use have no nodes.
+/// Measures the force of a body on a side of the grid, - sum_i f_i over the nodes of the side, and the area of the side
+/// that the body covers, 2 sum_i V_i / h. showForce computes f_i and V_i. Sides across axes that the grid does not use
+/// have no nodes.
 template <int D>
 void measureBoundary(const Patch& patch, const Material&, int face, NodeView<const Vec<D>> force,
                      NodeView<const double> volume, VectorSum& total, Sum& area) {
@@ -22,7 +23,8 @@ void measureBoundary(const Patch& patch, const Material&, int face, NodeView<con
   }
 }
 
-/// Force and area on a side of an axis that the grid does not use, across which the stress of every particle acts.
+/// Measures force and area on a side across an axis that the grid does not use; the stress of every particle acts on
+/// this side.
 inline void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
                                 ParticleView<const Matrix3> stress, VectorSum& total, Sum& area) {
   const double width = patch.level().cellWidth(face / 2), sign = face % 2 == 0 ? -1.0 : 1.0;
@@ -33,7 +35,7 @@ inline void measureThinBoundary(const Patch& patch, const Material&, int face, P
   }
 }
 
-/// Forces and areas on all six sides of the scene; `volume` and `stress` read those of particles.
+/// Measures forces and areas on all six sides of the scene; `volume` and `stress` read those of particles.
 template <int D, class Volume, class Stress>
 void scheduleBoundaryForces(TaskList& tasks, const std::vector<Material>& materials, const std::array<bool, 3>& isThin,
                             Volume volume, Stress stress) {

@@ -20,12 +20,12 @@ namespace tushar::mpm::solid {
 struct Start {
   bool axisymmetric = false;
   Loads loads;
-  std::shared_ptr<const Manufactured> solution;  ///< null: none
+  std::shared_ptr<const Manufactured> solution;  ///< manufactured solution; null: none
   bool domainsDeform = false;  ///< whether domains deform with F, so that p.size remains the undeformed size
-  double leastMass = 0;        ///< smallest allowed mass of a particle, kg
+  double leastMass = 0;        ///< smallest allowed mass of a particle [kg]
 };
 
-/// The numbers of the loads on a particle, 1 for the first, packed in the form of p.loadCurveID. Throws InputError
+/// The numbers of the loads on a particle, starting from 1, packed in the form of p.loadCurveID. Throws InputError
 /// where there are more than three.
 inline int loadsOn(const Level& level, const Start& start, const Material& material, const Body& body,
                    const Vec3& point) {
@@ -68,8 +68,8 @@ struct NewParticles {
             .loads = take(creates(p::loadCurves))};
   }
 
-  /// Adds a particle at `at`, m. The seed's place is the same point rounded as Uintah rounds it: loads act there or
-  /// not. Throws InputError where its mass is not above the scene's least.
+  /// Adds a particle at `at` [m]. The seed's position is the same point, rounded as in Uintah; it decides which loads
+  /// act on the particle. Throws InputError if the mass of the particle is not above `leastMass`.
   void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec<D>& at,
            const Seed& seed) const {
     const Vec3 point = level.expandPoint<D>(at);
@@ -93,7 +93,7 @@ struct NewParticles {
   }
 
  private:
-  /// Moves the last particle to its position in the manufactured solution at time 0.
+  /// Moves the particle that was added last to its position in the manufactured solution at time 0.
   void deform(const Level& level, const Start& start, const Material& material, const Vec3& point) const {
     const Manufactured& solution = *start.solution;
     const Elastic elastic = elasticOf(material);
@@ -107,7 +107,8 @@ struct NewParticles {
   }
 };
 
-/// Adds the particles of a body that start in a cell where its seeds are; `inCell` counts those of the cell.
+/// Adds the particles of a body that start in a cell at the positions of its seeds; `inCell` counts the particles of
+/// the cell.
 template <int D>
 void addSeeds(const Level& level, const Start& start, const Material& material, const Body& body, const Index<D>& cell,
               ParticleId& inCell, ParticleMaker& maker, const NewParticles<D>& particles) {
@@ -119,14 +120,14 @@ void addSeeds(const Level& level, const Start& start, const Material& material, 
   }
 }
 
-/// The distance in cells by which particles may be displaced at the start.
+/// The largest distance, in cells, by which particles are displaced at the start.
 inline int cellsMovedAtStart(const Level& level, const Start& start) {
   const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
   return static_cast<int>(std::ceil(farthest / level.minSpacing()));
 }
 
 /// The initial position of any one particle of a body in these cells of the finest level, and the part of a cell that
-/// it fills; none if there is no such particle.
+/// the particle fills; none if there is no such particle.
 template <int D>
 std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Body& body, const Box& cells) {
   std::optional<std::pair<Vec<D>, Seed>> found;
@@ -151,8 +152,9 @@ std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Bod
   return found;
 }
 
-/// Puts one particle of each body into a cell of a coarser level whose finest descendants would contain any, so that
-/// such cells are refined, or the scene is refused. Points of the coarser cell itself would miss a thin body.
+/// Puts one particle of each body into each cell of a coarser level whose finest descendants would contain any. As a
+/// result, such cells are refined, or the scene is refused. Sample points of the coarser cell itself would miss a thin
+/// body.
 template <int D>
 void standIn(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
              const NewParticles<D>& particles) {
@@ -174,12 +176,12 @@ void standIn(const Patch& patch, const Material& material, ParticleMaker& maker,
   });
 }
 
-/// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, if
-/// the shape contains that point. As in Uintah, bodies may overlap, and two bodies that share a face with such points
-/// both have particles there.
+/// Fills each body with its particles: `particlesPerCell` along each axis, each in the centre of an equal part of a
+/// cell, if the shape contains that point. As in Uintah, bodies may overlap; if such points lie on a face that two
+/// bodies share, both bodies have particles there.
 ///
-/// The id of a particle is made of the number of its cell and its place in the cell: it does not depend on the patches.
-/// Particles are on the finest level; see standIn for cells of coarser ones.
+/// The id of a particle is composed of the index of its cell and its position in the cell, so it does not depend on the
+/// patches. Particles are on the finest level; see standIn for cells of coarser levels.
 template <int D>
 void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
                         const NewParticles<D>& particles) {
@@ -215,7 +217,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   });
 }
 
-/// Sets a variable to zero on every particle at the start.
+/// Sets a variable to its initial value of zero on every particle.
 template <class T>
 void startAtZero(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<T> values) {
   for (int p = 0; p < mass.owned(); ++p)
@@ -225,8 +227,8 @@ void startAtZero(const Patch&, const Material&, ParticleView<const double> mass,
       values[p].setZero();
 }
 
-/// F = J^(1/3) I with J of the model, which is 1 unless it starts under pressure, or F of the manufactured solution at
-/// time 0.
+/// Sets the initial F = J^(1/3) I with J of the model, which is 1 unless the body starts under pressure, or F of the
+/// manufactured solution at time 0.
 template <int D>
 void startDeformation(const Patch& patch, const Material& material, const Start& start, ParticleView<const Vec<D>> x,
                       std::optional<ParticleView<const Vec<D>>> displacement, ParticleView<Matrix3> deformation) {
@@ -238,8 +240,8 @@ void startDeformation(const Patch& patch, const Material& material, const Start&
       deformation[p] = Matrix3::Identity() * std::cbrt(material.model->initialVolumeRatio());
 }
 
-/// The initial stress of a particle, Pa: if it starts under pressure, the stress that follows from its F and
-/// temperature (K), otherwise that of the model.
+/// The initial stress of a particle [Pa]: if it starts under pressure, the stress that follows from its F and
+/// temperature [K], otherwise that of the model.
 inline Matrix3 startStress(const Material& material, const Matrix3& f, double temperature, double* state) {
   if (material.model->initialVolumeRatio() == 1) return material.model->initialStress();
   const Matrix3 zero = Matrix3::Zero();
@@ -255,7 +257,7 @@ inline Matrix3 startStress(const Material& material, const Matrix3& f, double te
   return stress;
 }
 
-/// Initial values of particles besides their position and mass; `state` contains the internal variables of the
+/// Views of initial values of particles besides their position and mass; `state` contains the internal variables of the
 /// constitutive models, which may depend on id and color.
 struct StartOfPoints {
   ParticleView<const double> mass, temperature;
@@ -278,7 +280,7 @@ struct StartOfPoints {
   }
 };
 
-/// Volume, stress and internal variables of particles at the start.
+/// Sets initial volume, stress and internal variables of particles.
 inline void initializeStress(const Patch&, const Material& material, int stateSize, const StartOfPoints& points) {
   const double density = material.undeformedDensity();
   for (int p = 0; p < points.mass.owned(); ++p) {

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The initial damage of a particle with this volume, m^3, and p.color.
+/// The initial damage of a particle with this volume [m^3] and p.color.
 inline DamageState initialDamage(const Damage& damage, double volume, ParticleId id, double color) {
   return std::visit(
       [&](const auto& model) {
@@ -18,7 +18,7 @@ inline DamageState initialDamage(const Damage& damage, double volume, ParticleId
       damage);
 }
 
-/// Initialises the damage of particles from the scene, each with its own threshold; none has failed.
+/// Initialises the damage of particles from the scene, each with its own threshold; no particle has failed yet.
 inline void initializeDamage(const Patch&, const Material& material, ParticleView<const ParticleId> id,
                              ParticleView<const double> volume, OptionalView<const double> color,
                              ParticleView<double> damage, ParticleView<double> threshold, ParticleView<int> localized,
@@ -41,18 +41,18 @@ inline void scheduleInitialDamage(TaskList& tasks, const std::vector<Material>& 
                     computes(p::failureThreshold), computes(p::localized), computes(p::failureTime));
 }
 
-/// Without a damage model, no particle fails.
+/// Marks all particles as intact if there is no damage model.
 inline void showSound(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<int> localized) {
   for (int p = 0; p < mass.owned(); ++p) localized[p] = 0;
 }
 
-/// The particles whose damage grows in a step.
+/// Views of the particles whose damage grows in a step.
 struct DamageGrowth {
   ParticleView<const Matrix3> oldDeformation;
   ParticleView<const double> temperature, oldDamage, oldThreshold;
   ParticleView<const int> oldLocalized;
   ParticleView<const double> oldFailureTime;
-  ParticleView<const Matrix3> deformation;  ///< at the end of the step, like all below
+  ParticleView<const Matrix3> deformation;  ///< deformation at the end of the step, like all following views
   ParticleView<const double> volume;
   OptionalView<const double> state;  ///< internal variables, if any model has some
   ParticleView<Matrix3> stress;
@@ -78,7 +78,7 @@ struct DamageGrowth {
   }
 };
 
-/// Whether the plastic flow of a particle has lost its stability in the step; its stress is that before damage.
+/// Whether the plastic flow of a particle has become unstable in the step, judged by the stress before damage.
 inline bool isUnstable(const Material& material, int p, int stateSize, double dt, const DamageGrowth& d) {
   if (!material.erosion.acts() || !d.state || !material.model->checksStability()) return false;
   const Matrix3& f = d.deformation[p];
@@ -87,7 +87,7 @@ inline bool isUnstable(const Material& material, int p, int stateSize, double dt
                                     &(*d.state)[0] + p * stateSize);
 }
 
-/// Damage at the end of the step, and the stress that damaged and failed particles still bear. Uintah's
+/// Computes damage at the end of the step, and the stress that damaged and failed particles still support. Uintah's
 /// computeBasicDamage and updateErosionParameter.
 inline void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,
                           const DamageGrowth& d) {
@@ -110,7 +110,7 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
   }
 }
 
-/// `state` contains the internal variables of the constitutive models.
+/// Adds the tasks for damage; `state` contains the internal variables of the constitutive models.
 inline void scheduleDamage(TaskList& tasks, const std::vector<Material>& materials,
                            const ParticleLabel<double>& state) {
   tasks.perMaterial("mpm::computeDamage", computeDamage, materials, with(state.components), startTime(),

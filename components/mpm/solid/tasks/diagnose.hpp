@@ -63,7 +63,7 @@ inline void sumParticles(const Patch&, const Material&, ParticleView<const doubl
   addValues(values.owned(), total, [&](int p) { return values[p]; });
 }
 
-/// sum_p m_p c_v T_p
+/// Computes sum_p m_p c_v T_p [J].
 inline void sumThermalEnergy(const Patch&, const Material& material, ParticleView<const double> mass,
                              ParticleView<const double> temperature, Sum& total) {
   addValues(mass.owned(), total, [&](int p) { return mass[p] * material.specificHeat * temperature[p]; });
@@ -76,7 +76,7 @@ void sumMomentum(const Patch& patch, const Material&, ParticleView<const double>
   const Level& level = patch.level();
   addVectors(mass.owned(), total, [&](int p) { return Vec3(mass[p] * level.expandDirection<D>(velocity[p])); });
 }
-/// sum_p m_p x_p, kg m.
+/// Computes sum_p m_p x_p [kg m].
 template <int D>
 void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
                      VectorSum& total) {
@@ -84,7 +84,8 @@ void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const dou
   addVectors(mass.owned(), total, [&](int p) { return Vec3(mass[p] * level.expandPoint<D>(x[p])); });
 }
 
-/// sum_p m_p x_p x v_p about the origin of x, y, z, and of APIC's B_p: sum_p m_p (B_kj - B_jk) (Jiang & al. 2015).
+/// Computes sum_p m_p x_p x v_p about the origin of x, y, z, and the part of APIC's B_p: sum_p m_p (B_kj - B_jk) (Jiang
+/// & al. 2015).
 template <int D>
 void sumAngularMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
                         ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> velocity,
@@ -103,14 +104,14 @@ void sumAngularMomentum(const Patch& patch, const Material&, ParticleView<const 
   }
 }
 
-/// 1/2 m v^2 of all particles.
+/// Computes 1/2 m v^2 of all particles.
 template <int D>
 void sumKineticEnergy(const Patch&, const Material&, ParticleView<const double> mass,
                       ParticleView<const Vec<D>> velocity, Sum& total) {
   addValues(mass.owned(), total, [&](int p) { return 0.5 * mass[p] * velocity[p].squaredNorm(); });
 }
 
-/// The edges of a particle: F times those at the start, m.
+/// Computes the edges of a particle: F times the initial edges [m].
 template <int D>
 void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonSize,
                         const std::optional<ParticleView<const Vec<D>>>& size,
@@ -129,7 +130,7 @@ void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonS
   }
 }
 
-/// Totals over the particles, and their edges.
+/// Adds the tasks for totals over the particles, and for their edges.
 template <int D>
 void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, const Method& method, KeptSizes sizes) {
   tasks.perMaterial("mpm::sumMass", sumParticles, materials, requiresOld(p::mass), computes(total::mass));

@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 template <int D>
 void setTemperature(const Patch& patch, int material, NodeView<double> field);
 
-/// Particles whose heat is transferred to the nodes.
+/// Views of the particles whose heat is transferred to the nodes.
 template <int D>
 struct HeatToNodes {
   Placed<D> particles;
@@ -28,7 +28,7 @@ struct HeatToNodes {
   }
 };
 
-/// C_i = sum_p S_i m_p c_v,   T_i = sum_p S_i m_p c_v T_p / C_i; 0 at nodes without mass.
+/// Computes C_i = sum_p S_i m_p c_v,   T_i = sum_p S_i m_p c_v T_p / C_i; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void interpolateTemperatureToGrid(const Patch& patch, const Material& material, const Vec3& commonSize,
                                   const HeatToNodes<D>& h) {
@@ -49,12 +49,12 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
   setTemperature<D>(patch, material.index, h.temperature);
 }
 
-/// Particles that conduct heat to the nodes, and receive the heat of loads.
+/// Views of the particles that conduct heat to the nodes, and receive the heat of loads.
 template <int D>
 struct HeatFlow {
   Placed<D> particles;
   ParticleView<const double> mass;
-  OptionalView<const double> heatFlux;  ///< W, if loads supply heat
+  OptionalView<const double> heatFlux;  ///< heat flow [W], if loads supply heat
   NodeView<const double> temperature;
   NodeView<double> heatRate;
 
@@ -68,7 +68,7 @@ struct HeatFlow {
   }
 };
 
-/// Q_i = sum_p S_i H_p - V_p k grad S_i . grad T_p, with the heat H_p of loads if there are any, W
+/// Computes Q_i = sum_p S_i H_p - V_p k grad S_i . grad T_p [W], with the heat flow H_p of loads if there are any
 template <class Shape, int D = Shape::dimension>
 void computeInternalHeatRate(const Patch& patch, const Material& material, const Vec3& commonSize,
                              const HeatFlow<D>& h) {
@@ -89,7 +89,7 @@ void computeInternalHeatRate(const Patch& patch, const Material& material, const
   });
 }
 
-/// Materials at a node exchange heat until they have one temperature, the mean weighted by their heat capacities.
+/// Equalises the temperatures of the materials at a node: all get the mean weighted by their heat capacities.
 template <int D>
 void computeHeatExchange(const Patch&, const std::vector<Material>&,
                          const std::vector<NodeView<const double>>& capacity,
@@ -106,11 +106,12 @@ void computeHeatExchange(const Patch&, const std::vector<Material>&,
   });
 }
 
-/// The heat of a step at the nodes.
+/// Views of the heat that nodes receive in a step.
 struct NodalHeating {
   NodeView<const double> capacity, temperatureNoBC, temperature, heatRate;
-  std::optional<NodeView<const double>> contactRate;   ///< K/s, if materials in contact exchange heat
-  std::optional<NodeView<const double>> frictionHeat;  ///< J, if friction produces heat
+  /// Rate due to heat exchange [K/s], if materials in contact exchange heat.
+  std::optional<NodeView<const double>> contactRate;
+  std::optional<NodeView<const double>> frictionHeat;  ///< heat of friction [J], if friction produces heat
   NodeView<double> rate;
 
   static NodalHeating from(auto& take, bool hasContact, bool hasFriction) {
@@ -124,8 +125,9 @@ struct NodalHeating {
   }
 };
 
-/// T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of friction, or the given temperature on sides
-/// of the grid that have one; and dT_i/dt, K/s, the rate of change from T_i to T*_i before boundary conditions.
+/// Computes T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of friction, or the given temperature
+/// on sides of the grid that have one; and dT_i/dt [K/s], the rate of change from T_i to T*_i before boundary
+/// conditions.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, const NodalHeating& h, double dt) {
   forEach<D>(h.capacity.box(), [&](const Index<D>& node) {
@@ -139,7 +141,7 @@ void integrateTemperatureRate(const Patch& patch, const Material& material, cons
              [&](const Index<D>& node) { h.rate[node] = (h.rate[node] - h.temperatureNoBC[node]) / dt; });
 }
 
-/// Particles whose temperature is updated from the nodes.
+/// Views of the particles whose temperature is updated from the nodes.
 template <int D>
 struct HeatToParticles {
   Placed<D> particles;
@@ -155,7 +157,7 @@ struct HeatToParticles {
   }
 };
 
-/// T_p += dt sum_i S_i dT_i/dt
+/// Computes T_p += dt sum_i S_i dT_i/dt.
 template <class Shape, int D = Shape::dimension>
 void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSize, const HeatToParticles<D>& h,
                        double dt) {

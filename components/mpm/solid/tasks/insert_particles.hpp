@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Moves the particles that enter in the step, those with the color of an insertion, and sets their velocity
-/// (Uintah's insertParticles). F and the stress stay as they are.
+/// Moves the particles that enter in the step, which have the color of an insertion, and sets their velocity (Uintah's
+/// insertParticles). F and the stress do not change.
 template <int D>
 void insertParticles(const Patch& patch, const Material&, const std::vector<Insertion>& insertions, double time,
                      double dt, ParticleView<const double> color, ParticleView<Vec<D>> x,

@@ -13,12 +13,12 @@ inline constexpr ParticleLabel<double> plasticIncrement{"p.nonlocalSource", "1",
                                                         "plastic strain that affects other particles"};
 }  // namespace p
 
-/// The index of a variable among the numbers of the State, for a nonlocal model; -1 for other models.
+/// The index of a variable in the State of a nonlocal model; -1 for other models.
 inline int nonlocalOffset(const Material& material, std::string_view label) {
   return material.model->nonlocalLength() > 0 ? offsetOf(*material.model, label) : -1;
 }
 
-/// The plastic strain of the step, one number for each particle, which particles of other patches read.
+/// Copies the plastic strain of the step, one number for each particle, so that other patches can read it.
 inline void findPlasticIncrement(const Patch&, const Material& material, int stateSize,
                                  ParticleView<const double> state, ParticleView<double> increment) {
   const int offset = nonlocalOffset(material, "p.plasticIncrement");
@@ -38,9 +38,9 @@ void forEachAround(const ParticleView<const Vec<D>>& x, const Index<D>& cell, in
   });
 }
 
-/// The mean of the plastic strain of the step over the volume within the length l, with the weight exp(-(k r/l)²),
-/// k = (6 pi^(1/2))^(1/3), at the distance r; Burghardt, Brannon & Guilkey, Comput. Methods Appl. Mech. Engrg. 225
-/// (2012) 55. Distances are those at the start of the step.
+/// Computes the mean of the plastic strain of the step over the volume within the length l, with the weight exp(-(k
+/// r/l)²), k = (6 pi^(1/2))^(1/3), at the distance r; Burghardt, Brannon & Guilkey, Comput. Methods Appl. Mech. Engrg.
+/// 225 (2012) 55. Distances are those at the start of the step.
 template <int D>
 void averagePlasticIncrement(const Patch& patch, const Material& material, int layers, int stateSize,
                              ParticleView<const Vec<D>> x, ParticleView<const double> volume,

@@ -7,8 +7,8 @@
 namespace tushar::mpm::solid {
 
 /// The bodies of tasks that use shape functions, in explicit and implicit steps, for one kind of shape functions in D
-/// dimensions. Their parameters depend on D alone, so that one schedule fits all kinds: it takes the bodies from here,
-/// and is compiled once for each D.
+/// dimensions. Their parameters depend on D alone, so that the same schedule, compiled once for each D, works with all
+/// kinds.
 template <int D>
 struct ShapedTasks {
   ShapeTraits shape;
@@ -42,8 +42,9 @@ void scheduleTemperatureUpdate(TaskList& tasks, const ShapedTasks<D>& shaped, co
                     all<HeatToParticles<D>>(shaped.shape.ghostNodes, keepsSizes), requiresOld(delT));
 }
 
-/// Each is a separate task, because a scene may need the forces in every step, and the others only for outputs.
-/// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
+/// Adds motion, forces, stresses and accelerations on the nodes. Separate tasks compute them, because a scene may need
+/// the forces in every step, and the other quantities only for outputs. `volume` and `stress` read these variables of
+/// particles, with the ghost cells that shape functions reach.
 template <int D, class Volume, class Stress>
 void scheduleShowOnGrid(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
                         const Vec3& commonSize, KeptSizes keepsSizes, Volume volume, Stress stress) {

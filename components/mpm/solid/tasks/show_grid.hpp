@@ -10,13 +10,13 @@ namespace tushar::mpm::solid {
 
 // The state of the particles on the grid, as outputs that only some scenes save: no step reads it.
 
-/// V_p = m_p J / density
+/// Computes V_p = m_p J / density.
 inline void computeVolume(const Patch&, const Material& material, ParticleView<const double> mass,
                           ParticleView<const Matrix3> deformation, ParticleView<double> volume) {
   const double density = material.undeformedDensity();
   for (int p = 0; p < mass.owned(); ++p) volume[p] = mass[p] / density * deformation[p].determinant();
 }
-/// sigma_p, Pa, if the stress is a function of F alone.
+/// Computes sigma_p [Pa], if the stress is a function of F alone.
 inline void computeStress(const Patch&, const Material& material, ParticleView<const Matrix3> deformation,
                           ParticleView<Matrix3> stress) {
   if (deformation.owned() == 0) return;
@@ -24,7 +24,7 @@ inline void computeStress(const Patch&, const Material& material, ParticleView<c
   for (int p = 0; p < deformation.owned(); ++p) stress[p] /= deformation[p].determinant();
 }
 
-/// Mass and velocity of the particles on the grid.
+/// Views of mass and velocity of particles and on the grid.
 template <int D>
 struct MotionPicture {
   Placed<D> particles;
@@ -42,7 +42,7 @@ struct MotionPicture {
   }
 };
 
-/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i; 0 at nodes without mass.
+/// Computes m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void showMotion(const Patch& patch, const Material&, const Vec3& commonSize, const MotionPicture<D>& picture) {
   picture.mass.fill(0.0);
@@ -62,8 +62,8 @@ void showMotion(const Patch& patch, const Material&, const Vec3& commonSize, con
   });
 }
 
-/// Particles whose volume and stress act on the grid; `volume` and `stress` read them, with the ghost cells that shape
-/// functions reach.
+/// Views of particles whose volume and stress act on the grid; `volume` and `stress` read them, with the ghost cells
+/// that shape functions reach.
 template <int D>
 struct StressedParticles {
   Placed<D> placed;
@@ -77,8 +77,8 @@ struct StressedParticles {
   }
 };
 
-/// V_i = sum_p S_i V_p,   f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta S_i / r where axisymmetric), before
-/// any contact or boundary condition; 0 at nodes without mass.
+/// Computes V_i = sum_p S_i V_p,   f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta S_i / r in axisymmetric
+/// scenes), before any contact or boundary condition; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void showForce(const Patch& patch, const Material&, const Vec3& commonSize, const StressedParticles<D>& particles,
                NodeView<double> volume, NodeView<Vec<D>> force) {
@@ -100,7 +100,7 @@ void showForce(const Patch& patch, const Material&, const Vec3& commonSize, cons
       });
 }
 
-/// sigma_i = sum_p S_i V_p sigma_p / V_i; 0 at nodes without mass.
+/// Computes sigma_i = sum_p S_i V_p sigma_p / V_i; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void showStress(const Patch& patch, const Material&, const Vec3& commonSize, const StressedParticles<D>& particles,
                 NodeView<const double> volume, NodeView<Matrix3> stress) {
@@ -116,7 +116,7 @@ void showStress(const Patch& patch, const Material&, const Vec3& commonSize, con
   });
 }
 
-/// f_i / m_i; 0 at nodes without mass.
+/// Computes f_i / m_i; 0 at nodes without mass.
 template <int D>
 void showAcceleration(const Patch&, const Material&, NodeView<const double> mass, NodeView<const Vec<D>> force,
                       NodeView<Vec<D>> acceleration) {

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Copies a state variable from the numbers that each particle stores for its model; 0 if the model has none.
+/// Copies a state variable from those that each particle stores for its model; 0 if the model does not have it.
 template <class T>
 void showState(const Patch&, const Material& material, std::string_view name, int stateSize,
                ParticleView<const double> state, ParticleView<T> values) {
@@ -45,7 +45,7 @@ class StateViewOf : public StateView {
   ParticleLabel<T> label_;
 };
 
-/// The state variables of all materials, each once, and those of Uintah that are always 0 in Tushar.
+/// The state variables of all materials, without duplicates, and those of Uintah that are always 0 in Tushar.
 inline std::vector<std::shared_ptr<const StateView>> stateViews(const std::vector<Material>& materials) {
   std::vector<std::shared_ptr<const StateView>> views;
   std::set<std::string_view> known;

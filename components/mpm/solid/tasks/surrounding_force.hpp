@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Adds the force that the surroundings of a body exert on its nodes, N.
+/// Adds the force [N] of a body's surroundings to the force in the records of the body's nodes.
 template <int D>
 void addSurroundingForce(const Patch&, const Material&, NodeView<const Vec<D>> force, NodeView<NodeRecord> record) {
   forEach<D>(record.box(), [&](const Index<D>& node) {
@@ -15,7 +15,7 @@ void addSurroundingForce(const Patch&, const Material&, NodeView<const Vec<D>> f
   });
 }
 
-/// Copies the old T_p, which the surroundings of the body then change.
+/// Copies the old T_p to the new one, which the surroundings of the body then change.
 inline void keepTemperature(const Patch&, const Material&, ParticleView<const double> old,
                             ParticleView<double> temperature) {
   std::copy_n(old.values(), old.owned(), temperature.values());

@@ -4,12 +4,12 @@
 
 namespace tushar::mpm::solid {
 
-/// Nothing moves through a symmetry plane, and no force acts across: both vectors of a record have no normal component
-/// there, and the nodes outside mirror those inside. On the nodes of the view's box.
+/// Ensures that nothing moves through a symmetry plane, and that no force acts across it, on the nodes of the view's
+/// box: both vectors of a record have no normal component there, and the nodes outside mirror those inside.
 template <int D>
 void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record);
 
-/// Sets a given velocity on a face, and on the nodes beyond it that particles touch.
+/// Sets a given velocity on a face, and on the nodes beyond it that are near particles.
 template <int D>
 void setVelocity(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record);
 

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The distance, in records, from the first node of a stencil to the lowest one of each corner's cell.
+/// The distance, in records, from the first node of a stencil to the lowest node of the cell that contains each corner.
 template <class Stencil, std::size_t D>
 [[gnu::always_inline]] inline std::array<std::ptrdiff_t, Stencil::corners> offsetsOfCells(
     const Stencil& stencil, const std::array<std::ptrdiff_t, D>& stride) {
@@ -40,7 +40,8 @@ template <class Stencil, std::size_t D>
   return high;
 }
 
-/// As for other shapes (see transfer.hpp): each corner adds its contribution to the nodes of its cell.
+/// Adds a particle's contribution to the nodes, as scatter in transfer.hpp does for other shapes: each corner adds its
+/// part to the nodes of its cell.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0)
     [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,
@@ -58,7 +59,8 @@ requires(Stencil::corners > 0)
   }
 }
 
-/// scatter to the nodes of a stencil that lie within a box; `origin` is the record of its first node, stored or not.
+/// Adds a particle's contribution, as scatter does, but only to nodes within a box; the origin of `nodes` is the record
+/// of the stencil's first node, which need not be stored.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners >
          0) inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes,

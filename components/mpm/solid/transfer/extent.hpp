@@ -16,7 +16,7 @@ int sceneAxis(const Level& level, int kernelAxis) {
     return level.axis(kernelAxis);
 }
 
-/// A view that only some scenes have.
+/// A view of a variable that only some scenes have.
 template <class T>
 using OptionalView = std::optional<ParticleView<T>>;
 
@@ -37,11 +37,11 @@ struct KeptSizes {
   constexpr KeptSizes(bool keepsEach = false, bool keepsDomains = false) : each(keepsEach), domains(keepsDomains) {}
 };
 
-/// The sizes of particles at the start, in cells; without either view, all particles share one size.
+/// The initial sizes of particles, in cells; without either view, all particles have the same size.
 template <int D>
 struct Sizes {
   OptionalView<const Vec<D>> each;
-  OptionalView<const Matrix3> domain;  ///< its columns are the edges
+  OptionalView<const Matrix3> domain;  ///< matrices whose columns are the edges
 
   Sizes(std::nullopt_t = std::nullopt) {}
   Sizes(ParticleView<const Vec<D>> eachSize) : each(std::move(eachSize)) {}
@@ -53,7 +53,7 @@ struct Sizes {
   }
 };
 
-/// Whether the particles of a cell all touch its nodes, and no others.
+/// Whether all particles of a cell contribute to the nodes of this cell and to no others.
 template <class Shape>
 inline constexpr bool sharesNodes = Shape::ghostNodes == 0;
 
@@ -67,7 +67,7 @@ template <class T>
     __builtin_prefetch(from + at, std::is_const_v<T> ? 0 : 1);
 }
 
-/// The components of up to Lanes::count consecutive vectors, one vector in each lane; missing ones repeat the last.
+/// Loads up to Lanes::count consecutive vectors, one vector per lane; missing ones repeat the last one.
 template <int D>
 [[gnu::always_inline]] inline std::array<Lanes, D> vectorsOf(const Vec<D>* vectors, int count) {
   if (count >= Lanes::count) return unpack<D>(vectors->data());
@@ -107,7 +107,7 @@ class Extents {
                                    extent.size[j] * level_.spacing(j) * level_.inverseSpacing(i);
     return extent;
   }
-  /// The sizes at the start of up to Lanes::count particles starting with `first`, in cells, one in each lane.
+  /// The initial sizes of up to Lanes::count particles starting with `first`, in cells, one per lane.
   std::array<Lanes, D> sizes(int first, int count) const {
     if (Shape::hasSize && each_) return vectorsOf<D>(each_ + first, count);
     std::array<Lanes, D> same;
@@ -116,7 +116,7 @@ class Extents {
   }
 
  private:
-  /// Half the edges F S of a particle that started with the edges S, in cells.
+  /// Half the edges F S of a particle with the initial edges S, in cells.
   Extent<D> skewed(int p, const Vec<D>& size) const requires(Shape::deforms) {
     Extent<D> extent;
     extent.size = size;
@@ -139,7 +139,7 @@ class Extents {
 };
 
 /// Calls `visit(k, stencil)` for each of `count` particles of a cell starting with `first`, with the k-th stencil for
-/// loops over rows of nodes. Those of tensor products are computed for several particles at once.
+/// loops over rows of nodes. Stencils of tensor products are computed for several particles together.
 template <class Shape, class Visit, int D = Shape::dimension>
 [[gnu::always_inline]] inline void forEachStencilOf(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>* x,
                                                     const Extents<Shape>& extents, int first, int count,
@@ -165,8 +165,8 @@ void forEachStencil(const Patch& patch, const Box& cells, ParticleView<const Vec
   });
 }
 
-/// Calls `visit(node, S, gradient)` for the nodes of a stencil that lie within a box, in the same order as for all
-/// nodes.
+/// Calls `visit(node, S, gradient)` for the nodes of a stencil that lie within a box, in the same order as without a
+/// box.
 template <class Stencil, class Visit, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void forEachNodeWithin(const Stencil& stencil, const Box& box, Visit&& visit) {
   bool areAll = true;

@@ -10,11 +10,12 @@ namespace tushar::mpm::solid {
 /// same as with Gathered.
 template <int D>
 struct GatheredLanes {
-  std::array<Lanes, D> after, before;            ///< sum_i S_i v*_i and sum_i S_i v_i, m/s
-  std::array<std::array<Lanes, D>, D> gradient;  ///< of v*, by axis and component, 1/s
+  std::array<Lanes, D> after, before;            ///< sum_i S_i v*_i and sum_i S_i v_i [m/s]
+  std::array<std::array<Lanes, D>, D> gradient;  ///< gradient of v* [1/s], by axis and component
 };
 
-/// For particles that touch only the nodes of their cell: each number of a node is loaded once for all of them.
+/// Gathers for particles that contribute only to the nodes of their cell: each number of a node is loaded once for all
+/// of them.
 template <class Stencils, int D = Stencils::dimension>
 [[gnu::always_inline]] inline GatheredLanes<D> gatherOfCell(const Stencils& stencils,
                                                             const NodeWindow<const NodeRecord, D>& nodes) {
@@ -36,14 +37,14 @@ template <class Stencils, int D = Stencils::dimension>
   return sums;
 }
 
-/// The values that a single particle gathers.
+/// The values gathered by a single particle.
 template <int D>
 struct GatheredAlone {
   NodeRecord value;
   std::array<Quad, D> gradient;
 };
 
-/// For `count` particles, each of which was gathered separately.
+/// Combines the values of `count` particles, each of which was gathered separately.
 template <int D>
 [[gnu::always_inline]] inline GatheredLanes<D> lanesOf(const std::array<GatheredAlone<D>, Lanes::count>& gathered,
                                                        int count) {
@@ -61,8 +62,8 @@ template <int D>
   return sums;
 }
 
-/// The values that up to Lanes::count particles of a cell, starting with `first`, interpolate from the nodes; missing
-/// lanes repeat one.
+/// Gathers the values that up to Lanes::count particles of a cell, starting with `first`, interpolate from the nodes;
+/// missing lanes repeat one of these particles.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline GatheredLanes<D> gatherLanes(const CellFrame<D>& frame, const Index<D>& cell,
                                                            const Vec<D>* x, const Extents<Shape>& extents, int first,

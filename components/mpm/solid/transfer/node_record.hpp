@@ -5,7 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The numbers of a node in a step: three components along the kernel axes, a number, three components, a number.
+/// The numbers that a node stores in a step: three components along the kernel axes, a number, three components, a
+/// number.
 ///
 /// | lanes | from particles | before contact | at the end of the step |
 /// |---|---|---|---|
@@ -20,11 +21,11 @@ struct alignas(64) NodeRecord {
   Quad low, high;
 
   double operator[](int lane) const { return lane < 4 ? low[lane] : high[lane - 4]; }
-  /// Refers to a lane of a record in memory.
+  /// Refers to one lane of a record in memory.
   double& operator[](int lane) { return reinterpret_cast<double*>(this)[lane]; }
 };
 
-/// A NodeRecord in registers: in one if it is wide enough for both halves.
+/// A NodeRecord in registers; in a single one if it is wide enough for both halves.
 class Octet {
  public:
 #if defined(__AVX512F__) && defined(__FMA__)
@@ -37,11 +38,11 @@ class Octet {
   [[gnu::always_inline]] friend Octet operator*(double factor, const Octet& a) {
     return _mm512_mul_pd(_mm512_set1_pd(factor), a.both_);
   }
-  /// factor * a + b, rounded once.
+  /// Computes factor * a + b, rounded once.
   [[gnu::always_inline]] friend Octet multiplyAdd(double factor, const Octet& a, const Octet& b) {
     return _mm512_fmadd_pd(_mm512_set1_pd(factor), a.both_, b.both_);
   }
-  /// b, with factor * a added to its high half, rounded once.
+  /// Returns b with factor * a added to its high half, rounded once.
   [[gnu::always_inline]] friend Octet multiplyAddHigh(double factor, const Octet& a, const Octet& b) {
     return _mm512_mask3_fmadd_pd(_mm512_set1_pd(factor), a.both_, b.both_, 0xF0);
   }
@@ -59,11 +60,11 @@ class Octet {
   [[gnu::always_inline]] friend Octet operator*(double factor, const Octet& a) {
     return {factor * a.low_, factor * a.high_};
   }
-  /// factor * a + b, rounded once if the processor supports it.
+  /// Computes factor * a + b, rounded once if the processor supports it.
   [[gnu::always_inline]] friend Octet multiplyAdd(double factor, const Octet& a, const Octet& b) {
     return {multiplyAdd(factor, a.low_, b.low_), multiplyAdd(factor, a.high_, b.high_)};
   }
-  /// b, with factor * a added to its high half, rounded once if the processor supports it.
+  /// Returns b with factor * a added to its high half, rounded once if the processor supports it.
   [[gnu::always_inline]] friend Octet multiplyAddHigh(double factor, const Octet& a, const Octet& b) {
     return {b.low_, multiplyAdd(factor, a.high_, b.high_)};
   }
@@ -73,7 +74,7 @@ class Octet {
 #endif
 };
 
-/// The first lane of each quantity in a NodeRecord.
+/// The index of the first lane of each quantity in a NodeRecord.
 namespace lane {
 inline constexpr int velocity = 0, mass = 3, force = 4, before = 4, volume = 7;
 }

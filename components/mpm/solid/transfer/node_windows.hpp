@@ -5,13 +5,13 @@
 
 namespace tushar::mpm::solid {
 
-/// The rows of nodes that particles of a set, including ghosts, touch: on nodes of the patch and around it.
+/// The rows of nodes, on and around the patch, to which the particles of a view contribute, including ghost particles.
 template <int D>
 const data::TouchedRows& touchedRows(const ParticleView<const Vec<D>>& particles, int ghostNodes) {
   return particles.set().touched(ghostNodes, D);
 }
 
-/// The records relative to a node, which may be outside the stored ones.
+/// Access to records relative to the node `first`, whose own record need not be stored.
 template <class Record, int D>
 NodeWindow<Record, D> windowFrom(const NodeView<Record>& records, const Index<D>& first) {
   const Box& stored = records.stored();
@@ -26,7 +26,7 @@ NodeWindow<Record, D> windowFrom(const NodeView<Record>& records, const Index<D>
   return window;
 }
 
-/// The records that a stencil touches. Throws AccessError in the dev preset where some are not stored.
+/// Access to the records of a stencil's nodes. Throws AccessError in the dev preset if some are not stored.
 template <class Record, class Stencil, int D = Stencil::dimension>
 NodeWindow<Record, D> windowOf(const NodeView<Record>& records, const Stencil& stencil) {
   const Box& stored = records.stored();

@@ -4,28 +4,30 @@
 
 namespace tushar::mpm::solid {
 
-/// The only properties of shape functions on which the schedule depends.
+/// The properties of shape functions that affect the schedule.
 struct ShapeTraits {
-  bool haveSizes = false;  ///< they depend on the sizes of particles
-  bool deform = false;     ///< they follow F
-  int reach = 1;           ///< layers of cells around a patch whose particles touch its nodes
-  int ghostNodes = 0;      ///< layers of nodes beyond those of a patch that its particles touch
+  bool haveSizes = false;  ///< whether shape functions depend on the sizes of particles
+  bool deform = false;     ///< whether shape functions follow F
+  /// Number of layers of cells around a patch whose particles contribute to the nodes of the patch.
+  int reach = 1;
+  int ghostNodes = 0;  ///< number of layers of nodes beyond those of a patch to which its particles contribute
 };
 template <class Shape>
 inline constexpr ShapeTraits traitsOf{Shape::hasSize, Shape::deforms, Shape::reach, Shape::ghostNodes};
 
-/// The variables of the particles of a material that shape functions read: their positions, sizes and deformations.
+/// Views of the particle variables of a material that shape functions read: positions, sizes and deformations.
 template <int D>
 struct Placed {
-  ParticleView<const Vec<D>> x;             ///< m
-  Sizes<D> size;                            ///< at the start
-  OptionalView<const Matrix3> deformation;  ///< F, 1; where shape functions follow it
+  ParticleView<const Vec<D>> x;             ///< position [m]
+  Sizes<D> size;                            ///< initial sizes
+  OptionalView<const Matrix3> deformation;  ///< F [1], if shape functions follow it
 
-  /// At the start of the step, with `ghost` layers of cells around the patch. F only where shape functions follow it.
+  /// Reads values at the start of the step, with `ghost` layers of cells around the patch; F only if shape functions
+  /// follow it.
   static Placed from(auto& take, const ShapeTraits& shape, KeptSizes keepsSizes, int ghost = 0) {
     return from(take, keepsSizes, ghost, when(shape.deform, requiresOld(p::deformationMeasure, ghost)));
   }
-  /// With F by an access of the caller's, `when(on, access)`.
+  /// Reads F by the access `deformation`, of the form `when(on, access)`.
   static Placed from(auto& take, KeptSizes keepsSizes, int ghost, auto deformation) {
     return {.x = take(requiresOld(p::x<D>, ghost)),
             .size = Sizes<D>::from(take, keepsSizes, ghost),

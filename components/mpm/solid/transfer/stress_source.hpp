@@ -6,14 +6,15 @@
 
 namespace tushar::mpm::solid {
 
-/// Stresses of particles that are contiguous in memory: stored ones, or those that follow from F.
+/// Stresses of particles that are contiguous in memory: stored stresses, or those that follow from F.
 struct StressSource {
-  const Matrix3* stress = nullptr;       ///< Pa; null if it is a function of F alone
-  const double* volume = nullptr;        ///< m^3; not null if `stress` is not
-  const Matrix3* deformation = nullptr;  ///< F, 1; not null if `stress` is
+  const Matrix3* stress = nullptr;       ///< stress [Pa]; null if the stress is a function of F alone
+  const double* volume = nullptr;        ///< volume [m^3]; null if and only if `stress` is
+  const Matrix3* deformation = nullptr;  ///< F [1]; null if and only if `stress` is not
 };
 
-/// V sigma (N m) of `count` particles starting with `first`; `startVolume(p)` is V0, m^3, for stresses of F.
+/// Computes V sigma [N m] of `count` particles starting with `first`; `startVolume(p)` is V0 [m^3], for stresses that
+/// follow from F.
 template <class StartVolume>
 void stressMoments(const Material& material, const StressSource& from, int first, int count, StartVolume&& startVolume,
                    Matrix3* moments) {
@@ -25,7 +26,7 @@ void stressMoments(const Material& material, const StressSource& from, int first
   for (int k = 0; k < count; ++k) moments[k] *= startVolume(first + k);
 }
 
-/// sigma (Pa) of `count` particles whose stress is a function of F alone.
+/// Computes sigma [Pa] of `count` particles whose stress is a function of F alone.
 inline void cauchyStress(const Material& material, const Matrix3* deformation, int count, Matrix3* stress) {
   material.model->kirchhoffStress(deformation, count, stress);
   for (int k = 0; k < count; ++k) stress[k] /= deformation[k].determinant();

@@ -9,14 +9,14 @@
 
 namespace tushar::mpm::solid {
 
-/// Records of nodes relative to one of them; those along x are adjacent.
+/// Records of nodes, relative to one node; records of neighbours along x are adjacent.
 template <class Record, int D>
 struct NodeWindow {
-  Record* origin;                          ///< of the first node that a particle touches
-  std::array<std::ptrdiff_t, D> stride{};  ///< records from one node to the next along each axis
+  Record* origin;                          ///< record of the first node to which a particle contributes
+  std::array<std::ptrdiff_t, D> stride{};  ///< number of records from one node to the next along each axis
 };
 
-/// Calls `visit(offset, factors)` for each row of nodes that a particle touches.
+/// Calls `visit(offset, factors)` for each row of nodes to which a particle contributes.
 template <class Stencil, int D, class Visit>
 [[gnu::always_inline]] inline void forEachRow(const Stencil& stencil,
                                               const std::array<std::ptrdiff_t, Stencil::dimension>& stride,
@@ -31,7 +31,7 @@ template <class Stencil, int D, class Visit>
     }
 }
 
-/// The contribution of a particle to a row of nodes along the first axis, without the factors of that axis.
+/// The contribution of a particle to a row of nodes along the first axis, without the factors of this axis.
 struct RowShare {
   Octet value, change, round;
 
@@ -42,7 +42,7 @@ struct RowShare {
     for (std::size_t d = 1; d < D; ++d) value = multiplyAddHigh(f[d], slope[d], value);
   }
 
-  /// The record of node i of the row, with the particle's contribution.
+  /// The record of node i of the row, with the particle's contribution added.
   template <class Stencil>
   [[gnu::always_inline]] Octet addedTo(const Octet& record, const Stencil& stencil, std::size_t i) const {
     const Octet sum =
@@ -64,8 +64,8 @@ template <std::size_t D>
   return high;
 }
 
-/// record_i += S_i value, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop where axisymmetric), for the
-/// nodes i of a stencil.
+/// Adds S_i value to record_i, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop in axisymmetric scenes),
+/// for the nodes i of a stencil.
 template <class Stencil, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,
                                            const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
@@ -79,14 +79,14 @@ template <class Stencil, int D = Stencil::dimension>
   });
 }
 
-/// The records of the nodes of a cell, kept in registers while particles that touch no other nodes are added.
+/// The records of the nodes of a cell, kept in registers while particles that contribute to no other nodes are added.
 template <int D>
 class CellRecords {
  public:
   [[gnu::always_inline]] explicit CellRecords(const NodeWindow<NodeRecord, D>& nodes) : nodes_(nodes) {
     forEachNode([](Octet& sum, NodeRecord& record) { sum = Octet(record); });
   }
-  /// Does the same as scatter.
+  /// Adds a particle's contribution to the records in registers, as scatter does to records in memory.
   template <class Stencil>
   [[gnu::always_inline]] void add(const Stencil& stencil, const NodeRecord& value, const std::array<Quad, D>& slope,
                                   const Quad& hoop) {
@@ -117,7 +117,8 @@ class CellRecords {
   std::array<Octet, 2 * rows> sums_;
 };
 
-/// Calls `visit` for the numbers from `first` up to `end` that are below n: written out, so that each is a constant.
+/// Calls `visit` for each number from `first` up to `end` that is smaller than n. The loop is unrolled, so that each
+/// number is a constant.
 template <int n, class Visit>
 [[gnu::always_inline]] inline void forEachOf(int first, int end, Visit&& visit) {
 #pragma GCC unroll 8
@@ -125,8 +126,8 @@ template <int n, class Visit>
     if (k >= first && k < end) visit(k);
 }
 
-/// scatter to those nodes of a stencil that lie within a box; `origin` is where the record of the first node would
-/// stand, stored or not.
+/// Adds a particle's contribution, as scatter does, but only to nodes within a box; the origin of `nodes` is the place
+/// of the record of the stencil's first node, which need not be stored.
 template <class Stencil, int D = Stencil::dimension>
 inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes,
                           const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
@@ -155,8 +156,8 @@ inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWind
   }
 }
 
-/// The values that a particle interpolates from the nodes: sum_i S_i record_i; of the low halves the gradient and sum_i
-/// S_i / r record_i, too.
+/// The values that a particle interpolates from the nodes: sum_i S_i record_i and, for the low halves of the records,
+/// also the gradient and sum_i S_i / r record_i.
 template <int D>
 struct Gathered {
   NodeRecord value{};
@@ -164,8 +165,8 @@ struct Gathered {
   Quad hoop{};
 };
 
-/// Sets the value and the gradient of `sums`, and in axisymmetric scenes its hoop. Code that goes on with the
-/// sums in lanes has them written once, to where it loads them from.
+/// Sets the value and the gradient of `sums`, and in axisymmetric scenes its hoop. The results are written directly to
+/// `sums`, from where code that continues in lanes loads them.
 template <class Stencil, class Sums, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void gatherInto(Sums& sums, const Stencil& stencil,
                                               const NodeWindow<const NodeRecord, D>& nodes) {

@@ -8,7 +8,7 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// Zero to three particles in each cell of a plane whose rows do not fill the last lanes.
+/// Zero to three particles in each cell of a plane whose rows do not fill the last SIMD lanes.
 struct Uneven : test::Particles {
   std::vector<Vec<2>> v;
 

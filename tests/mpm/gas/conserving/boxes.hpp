@@ -10,7 +10,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// A batch of one particle, in the first lane.
+/// A batch with one particle, in the first lane.
 template <int D>
 Batch<D> batchOfOne(const Index<D>& cell) {
   LaneIntegers takes{};
@@ -18,21 +18,21 @@ Batch<D> batchOfOne(const Index<D>& cell) {
   return Batch<D>(cell, LaneIntegers{}, takes);
 }
 
-/// The footprint of one box, in every lane.
+/// The footprint of a box, repeated in every lane.
 template <int D>
 Footprint<D> footprintOf(const Level& level, const Vec<D>& centre, const Vec<D>& edges) {
   return Footprint<D>(level, batchOfOne(level.cellOf<D>(centre)), centre.template cast<Lanes>(),
                       edges.template cast<Lanes>());
 }
 
-/// A grid with free sides.
+/// A grid with open sides.
 inline grid::Domain freeDomain(const Index3& resolution) {
   grid::Domain domain = test::domain(resolution);
   for (auto& face : domain.boundaries.faces) face.clear();
   return domain;
 }
 
-/// A box of random size with random values about the middle of every cell of a grid with free sides.
+/// A box of random size with random values, centred in every cell of a grid with open sides.
 template <int D>
 struct BoxCloud : test::Particles {
   std::vector<ParticleId> ids;
@@ -80,7 +80,7 @@ struct BoxCloud : test::Particles {
   }
 };
 
-/// Values over the nodes or cells of a level, and views of them.
+/// Values on the nodes or cells of a level, and views of these.
 template <data::Centring C, class T>
 struct GridValues {
   Box box;
@@ -96,7 +96,7 @@ using NodeValues = GridValues<data::Centring::node, T>;
 template <class T>
 using CellValues = GridValues<data::Centring::cell, T>;
 
-/// Mass, momentum and total energy.
+/// Total mass, momentum and energy.
 template <int D>
 struct Totals {
   double mass = 0, energy = 0;

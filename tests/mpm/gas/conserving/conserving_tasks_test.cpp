@@ -11,7 +11,7 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// The grid's state and everything of a step, in the order of the schedule.
+/// The grid's state and all variables of a step, in the order of the schedule.
 template <int D, class Scheme>
 struct Step {
   const BoxCloud<D>& cloud;
@@ -223,7 +223,7 @@ TEST(CountSteps, CallsForARemapWhenItsTimeHasComeOrACellIsOverfull) {
   EXPECT_EQ(count(0, 1.03), 0);
 }
 
-/// dt of a plane whose gradient is `of` in one cell and 0 elsewhere; `mass` is that of the cell.
+/// Returns dt for a plane with velocity gradient `of` in one cell of mass `mass` and 0 elsewhere.
 double deformationLimit(const Tensor<2>& of, double mass = 1) {
   const Grid grid(shaped<2>());
   const Level& level = grid.level();
@@ -249,7 +249,7 @@ TEST(LimitDeformation, LetsAFrontRunTwiceAsFarIntoAnEmptyCell) {
   EXPECT_DOUBLE_EQ(deformationLimit(gradient, 0), 2 * deformationLimit(gradient, 1));
 }
 
-/// A line of gas that moves with `speed` and is compressed by `compression` over each cell [m/s].
+/// A line of gas that moves with `speed`, with a velocity change of `compression` [m/s] across each cell.
 struct MovingLine {
   BoxCloud<1> cloud{Index3{{4, 1, 1}}};
   CellValues<double> mass{cloud.level}, energy{cloud.level};

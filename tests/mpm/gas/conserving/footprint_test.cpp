@@ -35,7 +35,7 @@ void addParts(const Level& level, const Batch<2>& batch, const LanesVec<2>& cent
   sums.add(footprint, brought);
 }
 
-/// Sum of the first `count` values.
+/// Returns the sum of the first `count` values.
 double sumOf(const auto& values, int count) {
   double sum = 0;
   for (int k = 0; k < count; ++k) sum += values[k][0];

@@ -16,7 +16,7 @@ Gas gasOf(double gamma, double pInfinity) {
   return gas;
 }
 
-/// A cell of 1 m³ with water in a share of it and air in the rest, each at a pressure of its own.
+/// A cell of 1 m³ with water in a fraction of it and air in the rest, at different pressures.
 struct WaterAndAir {
   static constexpr double volume = 1;
   const std::vector<Gas> gases{gasOf(4.4, 6e8), gasOf(1.4, 0)};
@@ -38,7 +38,7 @@ struct WaterAndAir {
 
   Mixture mixture() const { return cells.at(Index<1>{}, volume); }
   SharedWork<Index<1>> shared(double work) const { return {cells, cell, volume, work}; }
-  /// Internal energies after a work that is shared out.
+  /// Returns the internal energies after work has been distributed.
   std::array<double, 2> after(double work) const {
     const auto change = shared(work);
     return {energy[0] * (1 + change(0)), energy[1] * (1 + change(1))};

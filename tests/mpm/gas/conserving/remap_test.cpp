@@ -9,7 +9,7 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// What a redistribution made.
+/// The result of a redistribution.
 template <int D>
 struct Made {
   tasks::ParticleMaker maker{7};

@@ -19,7 +19,7 @@ namespace tushar::mpm::gas::paper {
 
 namespace {
 
-/// Particles at random places of every cell of a grid, with random values.
+/// Particles at random positions in every cell of a grid, with random values.
 template <int D>
 struct Cloud : test::Particles {
   std::vector<Vec<D>> x, v;
@@ -66,7 +66,7 @@ struct Cloud : test::Particles {
   }
 };
 
-/// What a step makes of the particles.
+/// The particles after a step.
 template <int D>
 struct Next {
   std::vector<Vec<D>> x, v;
@@ -90,7 +90,7 @@ struct Next {
   }
 };
 
-/// Relative change of total energy over one step of the conserving update.
+/// Returns the relative change of total energy over one step of the conserving update.
 template <int D>
 double energyDrift(const Index3& resolution) {
   const Cloud<D> cloud(resolution);
@@ -133,7 +133,7 @@ void expectLinearReproduction(const Index3& resolution) {
   });
 }
 
-/// One cell of unit length with pieces of random values.
+/// The pieces of one cell of unit length, with random values.
 std::vector<Piece<1>> somePieces(int count, double volume = 0.25) {
   std::vector<Piece<1>> pieces;
   for (int k = 0; k < count; ++k) {

@@ -10,7 +10,7 @@ namespace tushar::mpm::gas::paper {
 
 namespace {
 
-/// Particles in a row of cells of width 1/cells, and what is measured of them.
+/// Particles in a row of cells of width 1/cells, and the measured errors.
 struct Row {
   Grid grid;
   const Level& level = grid.level();
@@ -19,7 +19,7 @@ struct Row {
   std::vector<double> density, error, bound;
   Maximum greatestError, greatestRatio;
 
-  /// `places[c]` are those of the particles of cell c, from 0 to 1; `rho` is the density at x [m].
+  /// `places[c]` are the positions of the particles within cell c, from 0 to 1; `rho` is the density at x [m].
   template <class Rho>
   Row(const std::vector<std::vector<double>>& places, const Rho& rho)
       : grid(test::domain({{static_cast<int>(places.size()), 1, 1}})) {

@@ -16,7 +16,7 @@ using arenisca::YieldSurface;
 using testing::MaterialPoint;
 using testing::rotation;
 
-/// A cone whose vertex is at 600 Pa, with a cap; moduli of 10 and 15 kPa.
+/// A cone with its vertex at 600 Pa and a cap; bulk and shear moduli of 10 and 15 kPa.
 Arenisca4 sandstone(int lodeType = 0) {
   Arenisca4 model;
   model.peakI1 = 600;
@@ -32,7 +32,7 @@ Arenisca4 sandstone(int lodeType = 0) {
   return model;
 }
 
-/// The same without a cap.
+/// The cone of sandstone() without a cap.
 Arenisca4 cone() {
   Arenisca4 model = sandstone();
   model.p0 = -1e99;
@@ -40,12 +40,12 @@ Arenisca4 cone() {
   return model;
 }
 
-/// exp of a diagonal tensor.
+/// The exponential of a diagonal tensor.
 Matrix3 stretched(double x, double y, double z) {
   return Eigen::Vector3d(std::exp(x), std::exp(y), std::exp(z)).asDiagonal();
 }
 
-/// Brings a point to F, which lies on the axes, in steps that have D dt = `strain`.
+/// Deforms a point to F, which is diagonal, in steps with D dt = `strain`.
 template <class M>
 void strain(MaterialPoint<M>& point, const Eigen::Vector3d& strain, int steps) {
   for (int k = 0; k < steps; ++k) {
@@ -176,7 +176,7 @@ TEST(Arenisca, StiffensUnderPressure) {
   EXPECT_NEAR(point.oldStress.trace(), i1, 1e-3 * std::abs(i1)) << "moduli of the start of each step";
 }
 
-/// The wave speed is that of the greatest moduli that any pressure has, or more, but not by much.
+/// The wave speed is that of the largest moduli at any pressure, or slightly more.
 TEST(Arenisca, HasWavesAsFastAsItsStiffestShearModulus) {
   for (const auto& [atRest, byPressure] : {std::pair{0.2, 0.2}, {0.4, -0.3}, {0.1, 0.39}, {-0.5, 0.8}, {0.2, 0.0}}) {
     Arenisca4 model = cone();
@@ -191,7 +191,7 @@ TEST(Arenisca, HasWavesAsFastAsItsStiffestShearModulus) {
   }
 }
 
-/// A cone with a cap that touches it, of Uintah's oldest Arenisca.
+/// A cone with a tangent cap, as in Uintah's oldest Arenisca.
 Arenisca2 roundedSandstone(double capShape) {
   Arenisca2 model;
   static_cast<arenisca::Constants&>(model) = sandstone();
@@ -200,8 +200,8 @@ Arenisca2 roundedSandstone(double capShape) {
   return model;
 }
 
-/// In z and r: half axes a and b = CR a, the cone's slope B; a line touches an ellipse where its distance from the
-/// middle is the root of the sum of the squares of the half axes times the components of its normal.
+/// In z and r, the semi-axes are a and b = CR a, and the cone has slope B. A line touches an ellipse if the square of
+/// its distance from the centre is the sum of the squares of the semi-axes times the components of the line's normal.
 TEST(Arenisca, HasACapThatTouchesItsCone) {
   for (const double capShape : {0.3, 1.0, 6.0, 14.8}) {
     const Arenisca2 model = roundedSandstone(capShape);
@@ -243,7 +243,7 @@ TEST(Arenisca, ReturnsToTheNearestPointOfATangentCap) {
   }
 }
 
-/// The tangent cap ends where the other does, and K is constant.
+/// The tangent cap ends where the other cap does, and K is constant.
 TEST(Arenisca, FollowsTheCrushCurveWithATangentCap) {
   for (const double end : {-0.1, -0.3, -0.45}) {
     MaterialPoint<Arenisca2> point{roundedSandstone(6)};
@@ -253,7 +253,7 @@ TEST(Arenisca, FollowsTheCrushCurveWithATangentCap) {
   }
 }
 
-/// On the cone it does what the others do; see FollowsItsConeInUniaxialStrain.
+/// On the cone the model agrees with the others; see FollowsItsConeInUniaxialStrain.
 TEST(Arenisca, FollowsItsConeAlsoWithATangentCap) {
   Arenisca2 model = roundedSandstone(14.8);
   model.p0 = model.p1 = -1e99;
@@ -285,7 +285,7 @@ TEST(Arenisca, StartsUnderThePressureOfItsFluid) {
   EXPECT_LT(point.oldState.zeta, zeta) << "collapsing pores press the fluid";
 }
 
-/// At a constant rate the stress exceeds that of a cylinder, which neither hardens nor softens, by 2 G D t1 |D|^-t2.
+/// At a constant rate the stress exceeds the stress of a cylinder without hardening by 2 G D t1 |D|^-t2.
 TEST(Arenisca, BearsMoreAtAHighRate) {
   Arenisca4 model = cone();
   model.peakI1 = model.vertexSlope = 0;

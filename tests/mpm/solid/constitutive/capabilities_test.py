@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The model of the README compiles from one file and one line; a slip in it is refused with a sentence."""
+"""The model of the README compiles from one file and one line; a mistake in it gives a clear compiler error."""
 import pathlib
 import re
 import sys
@@ -115,7 +115,7 @@ const ModelOf<BlatzKo> model{{BlatzKo()}};
 
     @staticmethod
     def sentences(said):
-        """Of each model, the assertions that fail in the functions that are instantiated for it."""
+        """Returns the failed assertions of each model, for functions that are instantiated for it."""
         found, model = {}, None
         for line in said.splitlines():
             if instantiated := re.search(r"In instantiation of .*\[with (?:M|T|Flow) = (?:\w+::)*(\w+)[;\]]", line):

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid::testing {
 
-/// A model of each kind, with constants of the order of 1 unless others are given.
+/// An example of each type of model, with constants of the order of 1 unless given.
 template <class M>
 M withModuli(double bulk = 7, double shear = 3) {
   M model;
@@ -38,7 +38,7 @@ inline ElasticPlasticHp elasticPlastic(const FlowModel& flow) {
   model.material = {2, 0.5, 2000, 294};
   return model;
 }
-/// A yield stress of each kind, between .05 and .5 with the moduli of elasticPlastic at 300 K and some 100/s.
+/// A yield stress of each type, between .05 and .5 for the moduli of elasticPlastic at 300 K and rates of some 100/s.
 inline std::vector<FlowModel> flowModels() {
   JohnsonCook soft{0.1, 0.3, 0.025, 0.31, 1.09, 1, 298, 1356};
   MechanicalThreshold threshold;
@@ -62,7 +62,7 @@ inline std::vector<FlowModel> flowModels() {
   const ZerilliArmstrong crystal{0.1, 0.1, 0.3, 0.1, 0.5, 3e-3, 1e-4, 5e-3, 3e-4};
   return {IsotropicHardening{0.2, 0.5}, soft, threshold, tonks, saturating, lund, crystal};
 }
-/// A ligament, relaxing or not.
+/// A ligament, with or without relaxation.
 template <class M = TransIsoHyper>
 M ligament() {
   M model;
@@ -76,7 +76,7 @@ M ligament() {
   model.fibre = {2, 1, 2};
   return model;
 }
-/// Two Maxwell elements, one of which relaxes within a step or two.
+/// Two Maxwell elements, one of which relaxes within one or two steps.
 inline ViscoTransIsoHyper relaxingLigament() {
   auto model = ligament<ViscoTransIsoHyper>();
   model.y1 = 0.5;
@@ -115,13 +115,13 @@ inline ViscoScram explosive() {
   model.material = {2, 0.5, 2000, 294};
   return model;
 }
-/// The same that grows by a part in 1000 with each K: K = 6.5 Pa.
+/// As above, with an expansion of 1/1000 per kelvin: K = 6.5 Pa.
 inline ExpandingViscoScram hotExplosive() {
   ExpandingViscoScram model{explosive()};
   model.scram.thermalExpansion = 1e-3;
   return model;
 }
-/// Ice of the scene that Uintah ships, suvic_10minus4.ups.
+/// The ice of the scene suvic_10minus4.ups, which Uintah ships.
 inline ViscoPlastic ice() {
   ViscoPlastic model;
   model.bulkModulus = 8.9e9;

@@ -85,7 +85,7 @@ TEST(ProgramBurn, BurnsWhereTheDetonationHasBeen) {
   EXPECT_EQ(burnedAt(model, arrival + 100 * crossing, there), 1);
 }
 
-/// c² = -J² dp/dJ / rho_0 of either, and the greater one as long as the particle burns.
+/// c² = -J² dp/dJ / rho_0 for each phase; the larger one applies while the particle burns.
 TEST(ProgramBurn, HasTheWavesOfTheStifferPartWhileItBurns) {
   const ProgramBurn model = programmed();
   for (const double j : {0.45, 1.0}) {
@@ -112,7 +112,7 @@ TEST(ProgramBurn, StartsAtAPlaneAndRunsToBothSides) {
   }
 }
 
-/// A point under pressure that keeps its volume.
+/// A material point under pressure at constant volume.
 struct Charge {
   explicit Charge(const JwlppMpm& model) : point{model} {
     point.oldDeformation = 0.95 * rotation(0.3);
@@ -136,8 +136,8 @@ TEST(JwlppMpm, BurnsLikeADecayWhereTheRateDoesNotDependOnThePressure) {
   EXPECT_NEAR(charge.point.oldState.burned, -std::expm1(-2 * 0.7), 1e-8) << "integrated to 1e-9 in each step";
 }
 
-/// For b = 1 in a constant volume dF/dt = G (1 - F) (p_u + (p_b - p_u) F), and
-/// ln((p_u + (p_b - p_u) F) / (p_u (1 - F))) = G p_b t.
+/// For b = 1 at constant volume dF/dt = G (1 - F) (p_u + (p_b - p_u) F), so that ln((p_u + (p_b - p_u) F) / (p_u (1 -
+/// F))) = G p_b t.
 TEST(JwlppMpm, BurnsAsTheSolutionForARateInProportionToThePressure) {
   Charge charge(reactive(10, 1));
   const double time = 1.3;

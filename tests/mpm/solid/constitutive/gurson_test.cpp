@@ -20,7 +20,7 @@ GursonPlastic porous(double porosity, double hardening = 0) {
 
 const GursonYield& surfaceOf(const GursonPlastic& model) { return std::get<GursonYield>(model.base.yieldCondition); }
 
-/// The stress that a body bears without deviator: cosh(3 q2 p / (2 sigma_y)) = (1 + q3 f*²) / (2 q1 f*).
+/// The hydrostatic strength: cosh(3 q2 p / (2 sigma_y)) = (1 + q3 f*²) / (2 q1 f*).
 double hydrostaticStrength(const GursonYield& surface, double porosity) {
   const double f = surface.effective(porosity);
   return yieldStress * 2 / (3 * surface.q2) * std::acosh((1 + surface.q3 * f * f) / (2 * surface.q1 * f));
@@ -50,7 +50,7 @@ TEST(GursonPlastic, IsVonMisesWithoutPores) {
   EXPECT_NEAR(point.oldState.plasticStrain, solid.oldState.plasticStrain, 1e-10);
 }
 
-/// Hydrostatic tension: the stress is that of the surface, and what is not pore keeps its volume.
+/// Hydrostatic tension: the stress stays on the yield surface, and the volume of the solid phase is constant.
 TEST(GursonPlastic, OpensItsPoresInHydrostaticTension) {
   MaterialPoint<GursonPlastic> point{porous(0.01)};
   const int steps = 200;

@@ -16,7 +16,7 @@ constexpr const char* body =
 constexpr const char* moduli = "<bulk_modulus>7</bulk_modulus><shear_modulus>3</shear_modulus>";
 const std::string flow = "<flow_model type='isotropic_hardening'><sigma_Y>2</sigma_Y><K>1</K></flow_model>";
 
-/// The constitutive model's tags, and those beside it in the material.
+/// The tags of a constitutive model, and those next to it in the material.
 std::string sceneOf(const std::string& type, const std::string& tags, const std::string& beside = "") {
   return "<MaterialProperties><MPM><material name='a'><density>2</density>\n<constitutive_model type='" + type + "'>" +
          tags + "</constitutive_model>" + beside + body + "</material></MPM></MaterialProperties>";
@@ -28,7 +28,7 @@ std::vector<Material> materialsOf(const std::string& scene) {
   EXPECT_FALSE(diagnostics.any());
   return properties.mpm.materials;
 }
-/// The sentences of all problems.
+/// Returns the messages of all problems.
 std::string sentencesOf(const std::string& scene) {
   const Document document = input::documentOf(scene);
   Diagnostics diagnostics;
@@ -71,7 +71,7 @@ TEST(MaterialInput, PicksTheModelThatTheTagsAskFor) {
   EXPECT_EQ(nameOf("comp_neo_hook", yields), "UCNH");
   EXPECT_EQ(nameOf("comp_neo_hook", yields + spread), "UCNHVar");
   expectProblem(sceneOf("UCNH", yields + "<yield_distrib>uniform</yield_distrib><yield_range>2</yield_range>"),
-                "<yield_range> must be less than <yield_stress>");
+                "<yield_range> is not less than <yield_stress>");
 }
 
 TEST(MaterialInput, StartsUnderPressureAlsoWhereTheYieldStressDiffers) {
@@ -166,7 +166,7 @@ TEST(MaterialInput, NotesWhatDoesNotExpand) {
   EXPECT_NE(diagnostics.notes()[0].sentence.find("as in Uintah, only comp_neo_hook"), std::string::npos);
 }
 
-/// Tags of visco_scram with one Maxwell element, and further ones.
+/// Tags of visco_scram with one Maxwell element, followed by `more`.
 std::string crackingTags(const std::string& more) {
   std::string tags =
       "<PR>0.3</PR><CrackParameterA>1e-3</CrackParameterA><CrackPowerValue>10</CrackPowerValue>"
@@ -256,7 +256,7 @@ TEST(MaterialInput, RefusesAStrengthThatFallsFasterThanTheStress) {
   EXPECT_EQ(sentencesOf(soil(fmt::format("<h_local>{:g}</h_local>", -0.99 * limit))), "");
   expectProblem(soil(fmt::format("<h_local>{:g}</h_local>", -1.01 * limit)), "the strength would fall faster than");
   expectProblem(soil(fmt::format("<h_local>1</h_local><h_nonlocal>{:g}</h_nonlocal>", -1.01 * limit - 1)),
-                "the strength would fall faster than the stress; it must be greater than");
+                "the strength would fall faster than the stress; expected more than");
   expectProblem(soil(fmt::format("<h_local>{:g}</h_local><h_nonlocal>9</h_nonlocal>", -1.01 * limit)),
                 "must be greater");
 }

@@ -7,19 +7,19 @@
 
 namespace tushar::mpm::solid::testing {
 
-/// A rotation about (1, 2, 3) by an angle, rad.
+/// A rotation about (1, 2, 3) by an angle [rad].
 inline Matrix3 rotation(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
 }
 
-/// A deformation gradient without symmetries: all strains are of the order of `strain`, and there is a rotation.
+/// A deformation gradient without symmetries: a rotation and strains of the order of `strain`.
 inline Matrix3 generalDeformation(double strain) {
   Matrix3 gradient;
   gradient << 1.0, 0.5, -0.3, 0.2, -0.8, 0.4, -0.6, 0.1, 0.7;
   return rotation(0.4) * (Matrix3::Identity() + strain * gradient);
 }
 
-/// A material point and its step: what updateStress makes of a deformation gradient at the end of the step.
+/// A material point and its step: calls updateStress with a deformation gradient for the end of the step.
 template <class M>
 struct MaterialPoint {
   M model;
@@ -49,7 +49,7 @@ struct MaterialPoint {
     const Matrix3 after = model.updateStress(step(f), oldStress, state);
     return model.strainEnergyDensity(step(f), oldStress, after, state);
   }
-  /// Goes to the end of the step with F.
+  /// Ends the step with the deformation gradient F.
   void advance(const Matrix3& f) {
     const Deformation deformation = step(f);
     oldStress = model.updateStress(deformation, oldStress, oldState);
@@ -57,7 +57,7 @@ struct MaterialPoint {
   }
 };
 
-/// d f(F) / dF by differences of fourth order with steps of `h`; one column per component of F, row by row.
+/// d f(F) / dF by fourth-order differences with steps of `h`; one column per component of F, row by row.
 template <class Function>
 auto derivative(const Function& f, const Matrix3& at, double h = 1e-3) {
   constexpr int rows = int(sizeof(f(at)) / sizeof(double));

@@ -10,7 +10,7 @@ constexpr double roundOff = 1e-12;  ///< some hundred operations, each exact to 
 
 double equivalent(const Matrix3& stress) { return std::sqrt(1.5) * deviator(stress).norm(); }
 
-/// The same step seen after a rotation `before` and, at its end, another: the stress must turn with the second.
+/// The same step seen from a frame with rotation `before` and then another: the stress must follow the second.
 template <class M>
 void expectObjective(MaterialPoint<M> point, const Matrix3& f, void (*turnState)(typename M::State&, const Matrix3&)) {
   const Matrix3 before = rotation(0.7), after = rotation(-1.9);
@@ -56,7 +56,7 @@ TEST(Hyperelasticity, StressIsTheDerivativeOfTheEnergy) {
   expectStressFromEnergy(exponential);
 }
 
-/// Langevin's function coth z - 1/z takes the value y here, found by bisection.
+/// Returns the argument at which Langevin's function coth z - 1/z is y, found by bisection.
 double inverseLangevin(double y) {
   double low = 0, high = 100;
   for (int k = 0; k < 200; ++k) {

@@ -37,7 +37,7 @@ TEST(NonlocalDruckerPrager, ReturnsToItsApexFromStrongTension) {
   EXPECT_LT((point.oldStress - 0.1 / (3 * 0.2) * Matrix3::Identity()).norm(), roundOff);
 }
 
-/// The whole strain of a return to the apex is plastic but for that of the apex, and hardens as any other.
+/// After a return to the apex the strain is plastic except for the apex's own, and hardens like any other.
 TEST(NonlocalDruckerPrager, HardensAndSoftensAtItsApex) {
   for (const double hardening : {0.5, -0.5}) {
     NonlocalDruckerPrager model = soil();
@@ -109,7 +109,7 @@ TEST(NonlocalDruckerPrager, FlowsFromTheStressInWhichBodiesRest) {
   EXPECT_NEAR(loadOf(model, whole), 0.1, roundOff);
 }
 
-/// A row of four cells of 1 m with a particle in the middle of each.
+/// A row of four cells of 1 m with a particle at the centre of each.
 struct Row : test::Particles {
   Row() : Particles(test::unitCells(4, 1)) {
     set.reset(grid.patches().front(), 4);

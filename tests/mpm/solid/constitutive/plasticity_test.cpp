@@ -28,7 +28,7 @@ TEST(SpecificHeat, OfCopperAndSteelIsThatOfTables) {
   EXPECT_EQ(at(ConstantHeat(), 300), 1);
 }
 
-/// u = T/theta is in K, as theta is 1 at the density at the start.
+/// u = T/theta has the unit K, because theta is 1 at the initial density.
 TEST(SpecificHeat, OfTheCubicHasCoefficientsOfOnePowerOfTheTemperatureEach) {
   std::ostringstream text;
   CubicHeat::schema().describeContents(text, 0);
@@ -237,7 +237,7 @@ TEST(StabilityCheck, ActsWhereAMetalFlows) {
   EXPECT_FALSE(isUnstable(soft, Matrix3::Identity() + 1e-3 * (sheared - Matrix3::Identity()))) << "still elastic";
 }
 
-/// Momentum, mass and energy across a shock: p = rho_0 U u, eta = u/U, e = u²/2 with U = C_0 + S u.
+/// Conservation of momentum, mass and energy across a shock: p = rho_0 U u, eta = u/U, e = u²/2, U = C_0 + S u.
 TEST(MieGruneisen, GivesTheShockRelation) {
   MieGruneisenEnergy copper;
   copper.soundSpeed = 3940;

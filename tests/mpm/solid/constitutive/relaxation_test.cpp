@@ -8,11 +8,11 @@ namespace {
 
 constexpr double roundOff = 1e-12;  ///< some hundred operations, each exact to 1e-16
 constexpr double strain = 1e-3;
-constexpr double sudden = 1e-12;  ///< s; nothing relaxes by more than a part in 1e9 in it
+constexpr double sudden = 1e-12;  ///< sudden [s]; nothing relaxes by more than a part in 1e9 in it
 
 double equivalent(const Matrix3& stress) { return std::sqrt(1.5) * deviator(stress).norm(); }
 
-/// Stretched along z at once, or still.
+/// A deformation gradient suddenly stretched along z.
 Matrix3 stretched() { return Vec3(1, 1, 1 + strain).asDiagonal(); }
 
 template <class M>
@@ -137,7 +137,7 @@ TEST(ViscoScram, RelaxesByItsMaxwellElements) {
   EXPECT_NEAR(point.oldStress.trace() / 3, 2 * 3 * 1.3 / (3 * 0.4) * strain, roundOff);
 }
 
-/// One long step at rest is two of half its length: exp(-2 x) = exp(-x)².
+/// One long step at rest equals two steps of half its length: exp(-2 x) = exp(-x)².
 TEST(ViscoScram, AdvancesEachMaxwellElementOnceInAStep) {
   ViscoScram model = explosive();
   model.initialCrackRadius = 0;
@@ -160,7 +160,7 @@ TEST(ViscoScram, IsHalfAsStiffWithCracksOfTheGivenRadius) {
   EXPECT_EQ(point.oldState.crackRadius, 1e-3);
 }
 
-/// With m = 2 slow growth is dc/dt = v 3/2 pi c sigma²/(4 K_0²).
+/// With m = 2, slow growth follows dc/dt = v 3/2 pi c sigma²/(4 K_0²).
 TEST(ViscoScram, GrowsCracksExponentiallyUnderASmallStress) {
   MaterialPoint<ViscoScram> point{explosive()};
   point.oldStress = Vec3(-0.5, -0.5, 1).asDiagonal();
@@ -204,7 +204,7 @@ TEST(ExpandingViscoScram, IsPressedByHeatWhereItCannotGrow) {
   }
 }
 
-/// The temperature of the first step is the one at which it has no strain, also at 0 K.
+/// The strain is 0 at the temperature of the first step, even at 0 K.
 TEST(ExpandingViscoScram, StartsWithoutStrainAtAnyTemperature) {
   for (const double start : {0.0, 300.0}) {
     MaterialPoint<ExpandingViscoScram> point{hotExplosive()};

@@ -44,7 +44,7 @@ TEST(NominalTangent, OfHypoElasticCountsTheStressAtTheStartOfTheStep) {
   expectConsistentTangent(point, generalDeformation(0.2));
 }
 
-/// Before yield, at an elastic strain, and after.
+/// Compares the tangent before yield, at an elastic strain, and after yield.
 template <class M>
 void expectConsistentTangentAroundYield(MaterialPoint<M> point, double elasticStrain) {
   const Matrix3 elastic = generalDeformation(elasticStrain), plasticStep = generalDeformation(0.2);
@@ -60,7 +60,7 @@ TEST(NominalTangent, OfJ2FlowIsConsistentWithTheReturnBeforeAndAfterYield) {
     expectConsistentTangentAroundYield(MaterialPoint<CompNeoHookPlastic>{compNeoHookPlastic(hardening)}, 0.01);
 }
 
-/// Before and after yield, from a state that has been stressed and turned.
+/// Compares the tangent before and after yield, from a stressed and rotated state.
 void expectConsistentTangentOfMetal(const ElasticPlasticHp& model) {
   MaterialPoint<ElasticPlasticHp> point{model};
   point.oldDeformation = generalDeformation(0);

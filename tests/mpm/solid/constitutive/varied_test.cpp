@@ -53,7 +53,7 @@ TEST(UcnhVar, DrawsYieldStressesByTheIdOfAParticleFromTheRange) {
   EXPECT_NE(model.initialState({77, 0}).yieldStress, model.initialState({78, 0}).yieldStress);
 }
 
-/// Correlations of what is drawn for the pores at the start, the damage at the start, thresholds and yield stresses.
+/// Correlations of the random values of initial porosity, initial damage, thresholds and yield stresses.
 TEST(Drawn, DecidesEachQuantityByAStreamOfItsOwn) {
   GursonPlastic porous{elasticPlastic(IsotropicHardening{0.2, 0})};
   porous.base.initialPorosity = 0.5;
@@ -86,7 +86,7 @@ MohrCoulomb soilWith(double friction) {
   return soil;
 }
 
-/// Soil whose pores hold water by suction, 1.7 Pa at the start.
+/// Soil with a water suction in its pores, 1.7 Pa at the start.
 MohrCoulomb soilWithWater(double specificVolume) {
   MohrCoulomb soil = soilWith(20);
   soil.retainsWater = true;

@@ -50,7 +50,7 @@ TEST(ThWater, HasTheVolumeOfItsPressureAndTemperature) {
     }
 }
 
-/// c² = -v² dp/dv along the path on which compression heats it, by differences; also where the formula has ended.
+/// c² = -v² dp/dv along the adiabat, by differences; also beyond the formula's range.
 TEST(ThWater, CarriesSoundAsFastAsItsAdiabatSays) {
   for (const double squeezed : {1.0, 0.95, 0.9, 0.895, 0.89, 0.88, 0.86, 0.8, 0.5}) {
     const double h = 1e-5;
@@ -87,6 +87,6 @@ TEST(ThWater, HasASpeedOfSoundAndMorePressureTheMoreItIsSqueezed) {
   }
 }
 
-/// c² = dp/drho of each equation of state.
+/// Checks c² = dp/drho for each equation of state.
 
 }  // namespace tushar::mpm::solid::testing

@@ -40,7 +40,7 @@ TEST(FrictionImpulse, HoldsPressedBodiesTogether) {
   EXPECT_LT((frictionImpulse<2>({{0, 1}, {0, -1}, true}, 0.5).change - Vec<2>(0, 1)).norm(), roundOff);
 }
 
-/// Two bodies at the only inner node of a grid: one above, one below, of unit mass each.
+/// Two bodies of unit mass, one above the other, that share the only inner node of a grid.
 struct TwoBodies {
   explicit TwoBodies(const grid::Domain& domain = test::unitCells(2, 2)) : grid(domain) {
     for (auto* all : {&records[0], &records[1]}) all->assign(nodes.size(), NodeRecord{});

@@ -43,7 +43,7 @@ TEST(SeparatingNormal, DoesNotDependOnWhereTheNodeIs) {
   EXPECT_LT((separatingNormal<2>(here, 0.5) - separatingNormal<2>(there, 0.5)).norm(), 1e-9);
 }
 
-/// Two bodies at the only inner node of a grid, the second one above the first, of 2 and 1 kg.
+/// Two bodies of 2 and 1 kg that share the only inner node of a grid; the second is above the first.
 struct TwoBodies {
   TwoBodies() : grid(test::unitCells(2, 2)) {
     for (const std::size_t m : {std::size_t{0}, std::size_t{1}}) {

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The views of a step that updates particles, all without values: tests set those that they need.
+/// The views of a step that updates particles, initially empty: tests set those that they need.
 inline StateUpdate<2> bareUpdate(const data::ParticleSet& set, const Level& level) {
   static thread_local Minimum stableTimeStep;
   const ParticleView<const Vec<2>> none{nullptr, set, level.cells()};

@@ -11,7 +11,7 @@
 namespace tushar::mpm::solid {
 namespace {
 
-/// Eight cells around the origin, one particle in the last.
+/// Eight cells around the origin, with one particle in the last.
 struct OneParticle : test::Particles {
   static grid::Domain domain() {
     grid::Domain domain;

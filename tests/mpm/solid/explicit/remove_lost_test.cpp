@@ -7,7 +7,7 @@
 namespace tushar::mpm::solid {
 namespace {
 
-/// Three particles of a cell, of which the step turns the second inside out.
+/// Three particles in a cell; the step turns the second inside out.
 struct Cell {
   Grid grid{domain()};
   const Level& level = grid.level();
@@ -26,7 +26,7 @@ struct Cell {
     return domain;
   }
 
-  /// The stable time step of the cell, s.
+  /// Returns the stable time step of the cell [s].
   double remove(bool canRemove = true) {
     set.reset(grid.patches().front(), 0);
     set.setOwned(3);

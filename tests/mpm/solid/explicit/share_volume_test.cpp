@@ -8,7 +8,7 @@ namespace {
 
 constexpr double roundOff = 1e-14;  // of a dozen operations on numbers of order 1
 
-/// Four particles of a cell, of different masses, deformed differently.
+/// Four particles in a cell, with different masses and deformations.
 struct Cell {
   Grid grid{domain()};
   const Level& level = grid.level();

@@ -23,7 +23,7 @@ namespace {
 // Sums of some thousand numbers of order 1 that cancel.
 constexpr double roundOff = 1e-12;
 
-/// Particles at random places of the inner cells of a grid without walls, with random values.
+/// Particles at random positions in the inner cells of a grid without walls, with random values.
 template <class Shape>
 struct Cloud : test::Particles {
   static constexpr int D = Shape::dimension;
@@ -234,7 +234,7 @@ TYPED_TEST(Affine, KeepsAngularMomentumToTheGridAndBack) {
   EXPECT_LT((spin(v, b) - before).norm(), roundOff * 10);
 }
 
-/// Velocities that are linear in space go to the nodes as they are; without their gradients they do not.
+/// With velocity gradients, linear velocity fields are transferred to the nodes exactly; without them they are not.
 TYPED_TEST(Transfer, GivesNodesTheVelocityThatAGradientMakesThere) {
   constexpr int D = TypeParam::dimension;
   Cloud<TypeParam> cloud;
@@ -271,7 +271,7 @@ TEST(LimitVelocity, SlowsDownWhatHasBecomeFasterAndLeavesWhatWasFastBefore) {
   EXPECT_EQ(after[2][0], 9);
 }
 
-/// Speeds are looked at as many at a time as a register holds.
+/// The maximum speed is found in batches of the width of a SIMD register.
 TEST(CrossingRate, IsOfTheGreatestSpeedWhereverItStands) {
   const Cloud<LinearShape<1>> cloud;
   for (int count = 1; count <= 2 * Lanes::count + 1; ++count)

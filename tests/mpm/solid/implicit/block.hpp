@@ -23,7 +23,7 @@ std::shared_ptr<const Model> modelOf(const M& model) {
   return std::make_shared<ModelOf<M>>(model);
 }
 
-/// A grid of unit cells, two more than `filled` along each axis that has any, between symmetry planes.
+/// A grid of unit cells between symmetry planes, two cells larger than `filled` along each axis in use.
 inline grid::Domain domainAround(const Index3& filled) {
   grid::Domain domain;
   domain.upper = Vec3::Zero();
@@ -74,7 +74,7 @@ class Block {
   std::vector<Vec<D>>& force() { return force_; }
   std::vector<Vec<D>>& velocity() { return velocity_; }
   const Level& level() const { return level_; }
-  /// Takes out the last particles, of one cell.
+  /// Removes the last `count` particles, all of one cell.
   void removeLast(int count) {
     x_.resize(x_.size() - count);
     const Index<D> cell = level_.template cellOf<D>(x_.back());
@@ -83,7 +83,7 @@ class Block {
   }
 
   std::vector<double>& temperature() { return temperature_; }
-  /// Temperature of the grid at the particle at x, K, after a step of heat conduction: k = 1 W/(m K), c = 1 J/(kg K).
+  /// Returns the grid temperature [K] at x after a step of heat conduction: k = 1 W/(m K), c = 1 J/(kg K).
   double temperatureAfter(double dt, const Vec<D>& x) {
     std::vector<Material> materials{material_};
     materials[0].thermalConductivity = materials[0].specificHeat = 1;
@@ -165,14 +165,14 @@ class Block {
   std::vector<Matrix3> deformation_, stress_;
 };
 
-/// Newton's method with linear systems that are solved exactly.
+/// Settings of Newton's method with a direct solver for the linear systems.
 inline solvers::NewtonSettings direct() {
   solvers::NewtonSettings settings;
   settings.linear = {"preonly", "lu", 1e-12, 1, ""};
   return settings;
 }
 
-/// The nodes of the block's lower end do not move.
+/// Fixes the nodes at the lower end of the block.
 template <int D>
 void clamp(ImplicitSystem<D>& system) {
   for (int k = 0; k < system.nodes().size(); ++k)

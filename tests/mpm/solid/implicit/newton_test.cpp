@@ -11,7 +11,7 @@ using namespace testing;
 
 namespace {
 
-/// The order of the last step of Newton's method whose residual is well above rounding.
+/// Returns the order of convergence at the last Newton step whose residual is well above round-off.
 double lastOrder(const std::vector<double>& r) {
   double order = 0;
   for (std::size_t k = 2; k < r.size() && r[k] > 1e-11 * r[0]; ++k)
@@ -25,7 +25,7 @@ std::string textOf(const std::vector<double>& residuals) {
   return text;
 }
 
-/// Newton's method solves a system, with the order that it is known for.
+/// Expects that Newton's method converges with its theoretical order.
 template <int D>
 void expectQuadraticConvergence(ImplicitSystem<D>& system) {
   std::vector<double> u = system.guess();
@@ -35,9 +35,9 @@ void expectQuadraticConvergence(ImplicitSystem<D>& system) {
   EXPECT_GT(lastOrder(outcome.residuals), 1.8) << textOf(outcome.residuals);
 }
 
-/// The force, N, that draws out by a hundredth a square plate of 4 m between rigid ends, half of it by symmetry, which
-/// flows with hardly any change of volume, over that of flow along lines of slip from corner to corner, 2/sqrt(3) Y for
-/// each m^2 (R. Hill, The Mathematical Theory of Plasticity, 1950).
+/// Returns the force [N] that stretches a square plate of 4 m between rigid ends by 1 % (one half, by symmetry),
+/// relative to slip-line theory: 2/sqrt(3) Y per m² (R. Hill, The Mathematical Theory of Plasticity, 1950). The flow
+/// hardly changes the volume.
 double pull(bool sharesVolume) {
   constexpr double yieldStress = 2e3, length = 4;
   auto model = withModuli<CompNeoHookPlastic>(8e7, 2e5);
@@ -58,7 +58,7 @@ double pull(bool sharesVolume) {
   return force / (2 / std::sqrt(3.0) * yieldStress * length / 2);
 }
 
-/// How far the free end of a cantilever with Poisson's ratio .4999 sinks under its weight, m.
+/// Returns the deflection [m] of a cantilever's free end under its weight, with Poisson's ratio .4999.
 double sinking(const Index3& cells, double gravity, bool sharesVolume) {
   CompNeoHook model = rubber();
   model.bulkModulus = 2 * model.shearModulus * (1 + 0.4999) / (3 * (1 - 2 * 0.4999));

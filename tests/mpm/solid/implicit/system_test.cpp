@@ -10,7 +10,7 @@ using namespace testing;
 
 namespace {
 
-/// Yields at a strain of about .01.
+/// A metal that yields at a strain of about .01.
 CompNeoHookPlastic softMetal() {
   auto model = withModuli<CompNeoHookPlastic>(8e5, 2e5);
   model.yieldStress = 5e3;
@@ -18,14 +18,14 @@ CompNeoHookPlastic softMetal() {
   return model;
 }
 
-/// Fibres across the block.
+/// A material with fibres across the block.
 TransIsoHyper fibres() {
   TransIsoHyper model = ligament();
   for (double* modulus : {&model.bulkModulus, &model.c1, &model.c2, &model.c3, &model.c5}) *modulus *= 1e5;
   return model;
 }
 
-/// Yields at a strain of about .01, by the flow of Johnson and Cook.
+/// A metal that yields at a strain of about .01 and hardens by the Johnson-Cook law.
 ElasticPlasticModel hardeningMetal() {
   auto model = withModuli<ElasticPlasticModel>(8e5, 2e5);
   model.flow = JohnsonCook{5e3, 1e4, 0.025, 0.31, 1.09, 1, 298, 1356};
@@ -33,7 +33,7 @@ ElasticPlasticModel hardeningMetal() {
   return model;
 }
 
-/// A matrix as it is: every number.
+/// A dense matrix: every entry is stored.
 class Dense : public solvers::Matrix {
  public:
   Dense(int nodes, int block) : values(Eigen::MatrixXd::Zero(nodes * block, nodes * block)), block_(block) {}
@@ -54,7 +54,7 @@ class Dense : public solvers::Matrix {
   int block_;
 };
 
-/// Greatest difference between the assembled tangent and central differences of the residual, over the greatest entry.
+/// Returns the largest difference between the assembled tangent and central differences, over the largest entry.
 template <int D>
 double errorOfTangent(ImplicitSystem<D> system, double size) {
   const int nodes = system.nodes().size();

@@ -16,7 +16,7 @@ struct File {
   ~File() { std::filesystem::remove(path); }
 };
 
-/// The sentences about a file, with the line of each.
+/// Returns the messages about a file, each with its line.
 Sentences problemsOf(const std::string& text) {
   const File file(text);
   input::Diagnostics diagnostics;

@@ -12,7 +12,7 @@
 namespace tushar::mpm::solid {
 namespace {
 
-/// A square of one cell with two particles, of 2 and 3 kg.
+/// A square of one cell with two particles of 2 and 3 kg.
 struct TwoParticles : test::Particles {
   TwoParticles() : Particles(test::unitCells(1, 1)) {
     set.reset(grid.patches().front(), 1);
@@ -110,7 +110,7 @@ TEST(Torque, OfAllParticlesIsThatOfTheCurve) {
   EXPECT_EQ(load.force(Vec3(1, 0, 2), 0), Vec3::Zero()) << "on the axis";
 }
 
-/// A particle with edges of .2, .4 and 1 m at the start.
+/// A particle whose initial edges are .2, .4 and 1 m.
 ParticleBox particleAt(const Vec3& middle, const Matrix3& f = Matrix3::Identity()) {
   const Matrix3 start = Vec3(0.2, 0.4, 1).asDiagonal();
   return {middle, start, f * start};

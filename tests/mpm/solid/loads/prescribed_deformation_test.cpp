@@ -21,7 +21,7 @@ Matrix3 turnedAboutZ(double degrees) {
   return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-/// Stretches and shears while it turns about z, then about x.
+/// A deformation that stretches and shears, with a rotation about z, then about x.
 PrescribedDeformation path() {
   Matrix3 sheared = Matrix3::Identity(), pressed = 0.9 * Matrix3::Identity();
   sheared(0, 1) = 0.3;
@@ -42,7 +42,7 @@ TEST(PrescribedDeformation, GoesStraightBetweenPointsAndTurnsFromEach) {
   EXPECT_TRUE(p.deformation(3).isApprox(aboutX * turnedAboutZ(90) * end));
 }
 
-/// L = dF/dt F^-1, by central differences, also beyond the last point.
+/// L = dF/dt F^-1 by central differences, also beyond the last point.
 TEST(PrescribedDeformation, HasTheGradientOfItsVelocity) {
   const PrescribedDeformation p = path();
   for (const double time : {0.2, 0.9, 1.5, 2.9, 3.4}) {
@@ -72,7 +72,7 @@ struct File {
   ~File() { std::filesystem::remove(path); }
 };
 
-/// The sentences about a file, with the line of each.
+/// Returns the messages about a file, each with its line.
 std::vector<std::string> problemsOf(const std::string& text) {
   const File file(text);
   input::Diagnostics diagnostics;

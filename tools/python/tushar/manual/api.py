@@ -12,7 +12,7 @@ NAME = re.compile(r"(operator\W+|~?\w+)\s*(?:\(|\{|=|;|$)")
 
 @dataclasses.dataclass
 class Symbol:
-    """A declaration with a comment. `within` names the class that it stands in."""
+    """A declaration with a comment. `within` is the name of the class that contains it."""
     name: str
     within: str
     declaration: str
@@ -46,7 +46,7 @@ def headers():
 
 
 def symbols_of(text):
-    """The symbols of a header, without private ones. The indentation shows what is in what."""
+    """The public symbols of a header. The indentation shows which symbol contains which."""
     symbols, classes, comment, private = [], [], [], []
     lines = text.splitlines()
     for number, line in enumerate(lines):
@@ -76,13 +76,13 @@ def symbols_of(text):
 
 
 def _text(comment):
-    """The lines of a comment as paragraphs: those of a list, and those after an empty line, begin anew."""
+    """Joins the lines of a comment into paragraphs; items of a list, and lines after an empty line, begin new ones."""
     return re.sub(r" ?\n ?", "\n", " ".join("\n" + line if line.startswith("- ") or not line else line
                                           for line in comment)).strip()
 
 
 def _declaration(lines, start):
-    """Up to its body or semicolon, in one line."""
+    """A declaration up to its body or semicolon, in one line."""
     text = ""
     for line in lines[start:start + 12]:
         code = re.sub(r"\s*//.*", "", line).strip()

@@ -1,4 +1,4 @@
-"""Pieces of HTML that every page has."""
+"""Pieces of HTML that all pages have in common."""
 import html
 import posixpath
 import re
@@ -28,13 +28,13 @@ def relative(url, here):
 
 
 def prose(text):
-    """A sentence of a schema or a comment, in which `code` and <tags> are marked up."""
+    """A sentence of a schema or a comment as HTML, with `code` and <tags> marked up."""
     parts = re.split(r"(`[^`]+`|</?[A-Za-z][\w.]*>)", text)
     return "".join(code(part.strip("`")) if k % 2 else escape(part) for k, part in enumerate(parts))
 
 
 def page(url, title, body, version, lead=""):
-    """A whole page. `lead` is HTML above the title, such as where the page belongs."""
+    """A complete page. `lead` is HTML above the title, such as a link to the parent page."""
     root = posixpath.relpath(".", posixpath.dirname(url) or ".")
     root = "" if root == "." else root + "/"
     folder = url.split("/")[0]

@@ -1,4 +1,4 @@
-"""Markdown to HTML: links between files of the repository become links between pages of the manual."""
+"""Converts Markdown to HTML; links between files of the repository become links between pages of the manual."""
 import posixpath
 import re
 
@@ -12,18 +12,18 @@ NOT_RUN = re.compile(r"(\w+) not run: (.+)")
 
 
 def title_of(text):
-    """The first heading, as plain text."""
+    """The first heading of a page, as plain text."""
     found = HEADING.search(text)
     return found[1].replace("`", "") if found else ""
 
 
 def anchor_of(heading):
-    """An anchor as on GitHub: `Two commands` -> two-commands."""
+    """The anchor that GitHub gives a heading: `Two commands` -> two-commands."""
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 
 class Renderer:
-    """Renders a page. `urls` leads from paths of the repository to pages; `assets` collects the pictures to be copied;
+    """Renders a page. `urls` maps paths in the repository to pages; `assets` collects the pictures to be copied;
     `terms` leads from text in `code` to pages."""
 
     def __init__(self, urls, assets, terms):
@@ -35,7 +35,8 @@ class Renderer:
         self.markdown.add_render_rule("table_close", lambda *_: "</table></div>")
 
     def render(self, text, path, url):
-        """(HTML without the first heading, [(anchor, heading)]) of the file `path`, which becomes the page `url`."""
+        """Renders the file `path`, which becomes the page `url`: (HTML without the first heading, [(anchor,
+        heading)])."""
         tokens = self.markdown.parse(text)
         headings, first = [], True
         shown = []

@@ -19,7 +19,7 @@ class Family:
     remedy: str
 
     def fits(self, text):
-        """Number of letters of its words that occur in a message in this order; 0 if they do not."""
+        """Number of letters of the family's words if they occur in a message in this order, otherwise 0."""
         return max((len(words.replace("…", "")) for words in self.words if pattern(words).search(text)), default=0)
 
 
@@ -31,7 +31,7 @@ def pattern(words):
 
 @functools.cache
 def catalogue():
-    """(families in the order of their codes, texts that are only parts of messages)."""
+    """Returns (families in the order of their codes, texts that are only parts of messages)."""
     files = [tomllib.loads(file.read_text()) for file in sorted(CATALOGUE.glob("*.toml"))]
     entries = [entry for file in files for entry in file.get("family", ())]
     families = [Family(**{**entry, "words": tuple(entry["words"])}) for entry in entries]
@@ -39,7 +39,7 @@ def catalogue():
 
 
 def family_of(text):
-    """The family with this code, or the one with the longest words in a message of sus; or None."""
+    """The family with this code, or the one whose matching words in a message of sus are the longest; or None."""
     numbered = [family for family in catalogue()[0] if family.id == text.strip()]
     if numbered:
         return numbered[0]
@@ -48,5 +48,5 @@ def family_of(text):
 
 
 def is_fragment(text):
-    """Whether a text of the sources is only a part of a message, or not a message."""
+    """Whether a text of the sources is only a part of a message, or not a message at all."""
     return any(pattern(words).fullmatch(text.strip()) for words in (part.strip() for part in catalogue()[1]))

@@ -1,4 +1,4 @@
-"""Pages of scenes."""
+"""Pages about scenes."""
 import re
 
 from tushar.manual.html import code, escape, link, page, prose, relative
@@ -53,7 +53,7 @@ def command_of(scene):
 
 
 def measured(scene, report):
-    """The result of a run when the manual was made."""
+    """The result of the run that was made for the manual."""
     end = report.get("failure") or report.get("ended")
     rows = [("steps", f"{report.get('steps', 0)} to t = {report.get('time', 0):.6g} s ({end})")]
     if report.get("particles"):
@@ -103,7 +103,7 @@ class Linker:
         return "".join(shown) + escape(scene.text[end:])
 
     def _meaning(self, match, stack, sections):
-        """(item or None, pages of the contents of the tag)."""
+        """The description of a tag: (item or None, pages about the contents of the tag)."""
         name = match[2]
         depth = len(stack)
         if depth == 0 or (depth == 1 and name == "DataAnalysis"):

@@ -1,4 +1,4 @@
-"""Pages of messages, of the C++ interface, of tutorials and methods, and the first page."""
+"""Pages about messages, the C++ interface, tutorials and methods, and the first page."""
 import re
 
 from tushar.manual.api import folders
@@ -10,7 +10,7 @@ RANGES = (("T1", "The text of a scene"), ("T2", "A scene that can be read but no
 
 
 def message_page(families, found, version):
-    """`found` has the templates of each family, {id: templates}."""
+    """The page of messages. `found` contains the templates of each family, {id: templates}."""
     here = "messages.html"
     body = ["<p>Every message of <code>sus</code> ends with a code that never changes, such as <code>[T101]</code>. "
             "Find "
@@ -38,7 +38,7 @@ def _marked(text):
 
 
 def api_pages(headers, version):
-    """(url, HTML) of the C++ interface: an index and a page for each folder of core."""
+    """The pages (url, HTML) of the C++ interface: an index and a page for each folder of core."""
     meanings = folders()
     here = "api/index.html"
     rows = "".join(f"<tr><td>{link(f'api/{folder}.html', code('core/' + folder), here)}</td>"
@@ -66,7 +66,7 @@ def anchor_of(path):
 
 
 def symbol_anchors(path, symbols):
-    """One for each symbol, different from each other."""
+    """Unique anchors, one for each symbol."""
     taken, anchors = set(), []
     for symbol in symbols:
         anchor = base = f"{anchor_of(path)}-{re.sub(r'[^A-Za-z0-9_]+', '-', symbol.full_name)}"
@@ -87,7 +87,7 @@ def _symbol(symbol, anchor):
 
 
 def list_page(here, title, intro, entries, version):
-    """An index: entries are (url, title, sentence)."""
+    """An index page: entries are (url, title, sentence)."""
     return page(here, title, f"<p>{intro}</p>{_contents(entries, here)}", version)
 
 

@@ -1,4 +1,4 @@
-"""Pages of tags."""
+"""Pages about tags."""
 from tushar.manual.html import code, escape, link, page, prose
 from tushar.manual.reference import is_own
 
@@ -11,7 +11,7 @@ UNLIMITED = ("1.7976931348623157e+308", "2147483647")
 
 
 def facts(tag):
-    """`number in Pa · greater than 0 · default 1`, as HTML."""
+    """The facts about a value as HTML: `number in Pa · greater than 0 · default 1`."""
     parts = []
     if tag.type:
         parts.append(escape(tag.type) + (f" in <b>{escape(tag.unit)}</b>" if tag.unit else ""))
@@ -28,7 +28,7 @@ def facts(tag):
 
 
 def breakable(path):
-    """A path that may be broken after a slash."""
+    """A path that may be broken into lines after a slash."""
     return escape(path).replace("/", "/<wbr>")
 
 
@@ -41,12 +41,12 @@ def badge(item):
 
 
 def is_ours(item):
-    """Whether Uintah lacks a tag that is in use here."""
+    """Whether a tag is used by Tushar but does not exist in Uintah."""
     return item.tag.status == "used" and (item.tag.ours or all(is_own(section) for section, _ in item.paths))
 
 
 def uses(scenes, known, here):
-    """Links to the scenes that have a tag."""
+    """Links to the scenes that use a tag."""
     links = [link(known[path].url, escape(path.removeprefix("ups/").removesuffix(".ups")), here, known[path].title)
              for path in sorted(scenes)]
     if not links:
@@ -76,7 +76,7 @@ def item_html(item, here, known):
 
 
 def places(subject, here, reference):
-    """The positions of the tag of a page: each path with the component that reads it."""
+    """The positions of the tag that a page describes: each path with the component that reads it."""
     seen = {}
     for section, path in subject.paths:
         label = section.name + (" (gases)" if section.variant else "")
@@ -107,7 +107,7 @@ def tag_page(subject, reference, known, version):
 
 
 def index_page(reference, version):
-    """All pages as a tree, by component; a page at several positions is expanded once."""
+    """All pages as a tree, by component; a page that occurs at several positions is expanded only once."""
     here = "reference/index.html"
     body = ["<p>A scene is an XML file in Uintah's dialect. Each page below lists the contents of "
             "one tag, with type, unit, limits, default and meaning, all taken from the schemas that read it. The "

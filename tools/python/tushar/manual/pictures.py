@@ -1,4 +1,5 @@
-"""Runs scenes for the gallery: a picture and the report of each, kept in a cache until scene or program change."""
+"""Runs scenes for the gallery: a picture and a report of each, kept in a cache until the scene or the program
+changes."""
 import hashlib
 import json
 import os
@@ -29,7 +30,7 @@ class Album:
         return json.loads(file.read_text()) if file else None
 
     def picture(self, scene):
-        """A picture: of a run, or the one next to the scene. None if there is none."""
+        """A picture: from a run, or the one next to the scene. None if there is neither."""
         beside = ROOT / scene.path.replace(".ups", ".png")
         return self._made(scene, ".png") or (beside if beside.exists() else None)
 
@@ -64,7 +65,7 @@ class Album:
 
 
 def _version(sus):
-    """Changes with the program."""
+    """A text that changes whenever the program changes."""
     if sus is None:
         return ""
     said = subprocess.run([str(sus), "-V"], capture_output=True, text=True).stdout
@@ -72,13 +73,13 @@ def _version(sus):
 
 
 def bound_of(scene):
-    """(path in the report, upper bound) for a scene of the gallery of hard cases; None for others."""
+    """(path in the report, upper bound) for a scene in the gallery of hard cases; None for others."""
     case = next((case for case in CASES if scene.path == f"ups/stability/{case.scene or case.name}.ups"), None)
     return (f"errors.{case.error}", case.most) if case and case.most is not None and not case.sets else None
 
 
 def value_at(report, path):
-    """The number at a path such as errors.density.cell.L1; None if it does not exist."""
+    """The number at a path in a report, such as errors.density.cell.L1; None if it does not exist."""
     for key in path.split("."):
         report = report.get(key) if isinstance(report, dict) else None
     return report

@@ -35,7 +35,7 @@ class Page:
 
     @property
     def title(self):
-        """`<flow_model type="johnson_cook">` for one of several types, otherwise the tag."""
+        """The title `<flow_model type="johnson_cook">` for one of several types, otherwise the tag."""
         if self.tag.kind != "type":
             return self.tag.title()
         return f"<{_word(self).removesuffix('-' + self.tag.name)} {self.tag.title()}>"
@@ -55,7 +55,7 @@ class Reference:
 
 
 def is_own(section):
-    """Whether a whole section does not exist in Uintah."""
+    """Whether the whole section does not exist in Uintah."""
     return section.kind == "component" and section.name in OWN_SECTIONS
 
 
@@ -72,7 +72,7 @@ def build(sections):
 
 
 def unfolded(tag, known=()):
-    """Splits entries with several names: one tag for each name, with its contents."""
+    """Splits entries with several names: makes one tag for each name, with the same contents."""
     children = []
     for child in tag.children:
         children += _parts(child, known) if len(child.names) > 1 else [unfolded(child, known)]
@@ -103,14 +103,14 @@ def _parts(entry, known):
 
 
 def _content(tag):
-    """Equal for tags with the same contents."""
+    """A key that is equal for tags with the same contents."""
     nested = tag.children if not _is_link(tag) else ()
     return (tag.kind, tag.name, tag.sentence, tag.role, tag.type, tag.default, tag.presence, tag.limits, tag.ours,
             tuple(tag.choices), tuple(_content(child) for child in nested))
 
 
 def _is_link(tag):
-    """A part that refers to a tag that is described further up."""
+    """Whether a part only refers to a tag that is described further up."""
     return len(tag.children) == 1 and tag.children[0].kind == tag.kind and tag.children[0].name == tag.name
 
 
@@ -134,14 +134,14 @@ def _page_of(tag, section, path, above, pages):
 
 
 def _step(path, tag):
-    """The path of --set to a tag within another."""
+    """The step from a tag to a tag inside it, as written in a path of --set."""
     if tag.kind == "type":
         return f"{path}[@type='{tag.name}']"
     return f"{path}/{'@' if tag.kind == 'attribute' else ''}{tag.name}"
 
 
 def _give_slugs(pages, roots):
-    """Names of the files: that of the tag, with the section, the parent or a number if it is not unique."""
+    """Names the files: after the tag, with the section, the parent or a number added if the name is not unique."""
     section_of = {}
     for section, page in roots:
         word = section.name + ("-gas" if section.variant else "")
@@ -172,7 +172,7 @@ def _word(page):
 
 
 def link_shapes(reference):
-    """Shapes within shapes lead to the pages of these shapes."""
+    """Makes shapes inside shapes link to the pages of these shapes."""
     for page in reference.pages:
         for item in page.items:
             if _is_link(item.tag):

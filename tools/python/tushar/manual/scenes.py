@@ -1,4 +1,4 @@
-"""The scenes under ups: their head comments, and the tags that they use."""
+"""The scenes in ups: their head comments, and the tags that they use."""
 import dataclasses
 import pathlib
 import re
@@ -14,7 +14,7 @@ PICTURED = ("p.damage", "p.plasticStrain", "p.stress", "p.displacement", "p.velo
 
 @dataclasses.dataclass
 class Scene:
-    """A scene of the gallery. `head` has What, Source, Expect and Takes."""
+    """A scene of the gallery. `head` contains What, Source, Expect and Takes."""
     path: str  # from the root of the repository
     title: str
     head: dict
@@ -36,18 +36,18 @@ class Scene:
 
     @property
     def archive(self):
-        """Name of the folder that a run writes, without number."""
+        """Name of the folder that a run writes, without its number."""
         return pathlib.Path(self.root.findtext("DataArchiver/filebase", "").strip()).name
 
     @property
     def shown(self):
-        """The variables of its picture; none if the default of tools/plot is suitable: gases, and cell fields."""
+        """The variables in its picture; none if the default of tools/plot is suitable: gases, and cell fields."""
         saved = [(save.get("label") or "").strip() for save in self.root.iterfind("DataArchiver/save")]
         return [label for label in PICTURED if label in saved][:1] if self.folder == "solid" else []
 
 
 def scenes():
-    """All scenes, by folder and name."""
+    """All scenes, sorted by folder and name."""
     return [read(file) for file in sorted((ROOT / "ups").rglob("*.ups"))]
 
 
@@ -61,7 +61,7 @@ def read(file):
 
 
 def note_uses(all_scenes, reference, sections):
-    """Records, for each page and item, the scenes that have it; returns the paths that no page describes."""
+    """Records, for each page and item, the scenes that use it; returns the paths that no page describes."""
     unknown = []
     for scene in all_scenes:
         for page, element in sections_of(scene, reference, sections):
@@ -70,7 +70,7 @@ def note_uses(all_scenes, reference, sections):
 
 
 def sections_of(scene, reference, sections):
-    """(page, element) of each section of a scene that has one."""
+    """(page, element) for each section of a scene that has a page."""
     kind = scene.root.find("SimulationComponent")
     component = (kind.get("type") or "").strip()
     mpm = scene.root.find("MPM")
@@ -121,7 +121,7 @@ def _walk(scene, page, element, path):
 
 
 def _described_by_sentence(item):
-    """Tags that a function reads: sus describes them only by their sentence."""
+    """Tags that are read by a function: sus describes them only by a sentence."""
     return not item.tag.type or item.tag.status != "used"
 
 

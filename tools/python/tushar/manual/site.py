@@ -15,7 +15,7 @@ HOME_PICTURE = "ups/mpm/sod.png"
 
 
 class Site:
-    """The manual before it is written: {url: text}, pictures to be copied, entries of the search."""
+    """The manual before it is written: {url: text}, pictures to be copied, entries for the search."""
 
     def __init__(self, sus, album):
         self.files, self.assets, self.entries = {}, {}, []
@@ -50,7 +50,7 @@ class Site:
         return urls
 
     def _terms(self):
-        """{text in `code`: page}: codes of messages, and tags whose name is unique."""
+        """{text in `code`: page} for codes of messages, and for tags whose name is unique."""
         found = {}
         for page in self.reference.pages:
             for item in page.items:
@@ -117,7 +117,7 @@ class Site:
                     self._search("C++", symbol.full_name, f"api/{folder}.html#{anchor}", symbol.comment, path)
 
     def _add_page(self, path, url, kind, lead=""):
-        """Renders a Markdown file; returns (url, title, first sentence)."""
+        """Renders a Markdown file and adds it; returns (url, title, first sentence)."""
         text = (ROOT / path).read_text()
         body, headings = self.renderer.render(text, path, url)
         title = markdown.title_of(text) or path
@@ -154,7 +154,7 @@ class Site:
         self.files["index.html"] = pages_other.home_page(tutorials, counts, self.assets[HOME_PICTURE], self.version)
 
     def write(self, out):
-        """Writes the site into a folder, in place of an earlier one."""
+        """Writes the site into a folder, replacing an earlier one."""
         out = pathlib.Path(out)
         if out.exists() and any(out.iterdir()) and not (out / "search-index.js").exists():
             raise FileExistsError(f"{out} contains something other than a manual; choose another folder")
@@ -178,7 +178,7 @@ def _json(value):
 
 
 def readmes():
-    """The Markdown pages of the repository that are not tutorials, the first page first."""
+    """The Markdown pages of the repository that are not tutorials; the first page comes first."""
     found = [file.relative_to(ROOT).as_posix() for folder in ("components", "core", "ups", "tests", "tools")
              for file in sorted((ROOT / folder).rglob("README.md"))]
     extra = [path for path in (".github/CONTRIBUTING.md",) if (ROOT / path).exists()]
@@ -186,6 +186,6 @@ def readmes():
 
 
 def method_url(path):
-    """components/heat/README.md -> methods/components-heat.html."""
+    """The URL of a method's page: components/heat/README.md -> methods/components-heat.html."""
     name = path.removesuffix("/README.md").removesuffix(".md").replace("/", "-").lstrip(".").lower()
     return f"methods/{name}.html"

@@ -1,7 +1,7 @@
-"""Every tag of a scene, as sus describes it.
+"""All tags of a scene, as sus describes them.
 
-`tags_of` is the only place that knows where the description comes from: today the text of `sus --describe`, which
-core/input/schema_base.cpp writes from the schemas. A dump of the schemas for programs can take its place.
+`tags_of` is the only function that depends on the source of the description: currently the text of `sus --describe`,
+which core/input/schema_base.cpp writes from the schemas. A machine-readable dump of the schemas could replace it.
 """
 import dataclasses
 import re
@@ -45,7 +45,7 @@ class Tag:
         return {"attribute": f"{self.name}=", "text": "(text)", "type": f'type="{self.name}"'}[self.kind]
 
     def walk(self, above=()):
-        """(the tags above, tag) of itself and of all below."""
+        """Yields (the tags above, tag) for the tag itself and all tags below it."""
         yield above, self
         for child in self.children:
             yield from child.walk((*above, self))
@@ -62,7 +62,7 @@ class Section:
 
 
 def tags_of(sus):
-    """All sections that the program `sus` describes. A component that reads scenes in two ways gives two."""
+    """All sections that the program `sus` describes. A component with two forms of scenes yields two sections."""
     sections = [Section("scene", "scene", "what all scenes share", [])]
     sections += [Section(name, kind, sentence, []) for kind, name, sentence in _listed(_output(sus, "--list"))]
     described = []
@@ -87,7 +87,8 @@ def _listed(text):
 
 
 def parse(text):
-    """[(condition, roots)] of the text that --describe prints; ValueError for a line that does not belong to any
+    """Parses the text that --describe prints: [(condition, roots)]; raises ValueError for a line that does not belong
+    to any
     schema."""
     parts, open_tags = [("", [])], []
     for line in text.splitlines():
@@ -103,7 +104,7 @@ def parse(text):
 
 
 def parse_line(line, is_root=False):
-    """`<radius> — number in m, greater than 0, required: its radius`."""
+    """Parses a line such as `<radius> — number in m, greater than 0, required: its radius`."""
     ours = line.endswith(OURS)
     line = line.removesuffix(OURS)
     title = TITLE.match(line)
@@ -132,7 +133,7 @@ def _titled(title):
 
 
 def _presence_of(tag):
-    """The sentence of a tag that a function reads states what it accepts."""
+    """Whether a tag is required or optional; for a tag read by a function, its sentence says so."""
     if tag.sentence.startswith("only "):
         tag.status = "limited"
     elif tag.sentence.startswith("not available: "):
@@ -141,7 +142,7 @@ def _presence_of(tag):
 
 
 def _read_facts(facts, tag):
-    """type in unit, choices, limits, presence: each may be missing, in this order."""
+    """Parses type in unit, choices, limits, presence: each may be missing, in this order."""
     presence = PRESENCE.search(facts)
     if presence:
         tag.presence, tag.default = ("default", presence[2]) if presence[2] else (presence[1], "")

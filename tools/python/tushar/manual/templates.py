@@ -36,7 +36,7 @@ def templates():
 
 
 def templates_in(source, path):
-    """The messages of one source; each position is counted once."""
+    """The messages in one source file; each position is counted once."""
     source = COMMENT.sub(lambda comment: re.sub(r"[^\n]", " ", comment.group()), source)
     calls = [(match.start(), source.index("(", match.start())) for match in CALLS.finditer(source)]
     spans = [(start, _end_of_call(source, bracket)) for start, bracket in calls]
@@ -61,7 +61,7 @@ def _head_of(place, heads):
 
 
 def _end_of_call(source, at):
-    """The position after the bracket that closes the one at `at`."""
+    """The position after the bracket that closes the bracket at `at`."""
     depth = 0
     for match in re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)\'|[(){}]').finditer(source, at):
         if match.group() == "(":
@@ -79,7 +79,7 @@ def _end_of_statement(source, at):
 
 
 def _sentences(code):
-    """(position, text) of each literal of `code`; adjacent literals, or literals joined by +, are one."""
+    """(position, text) of each string literal in `code`; adjacent literals, and literals joined by +, count as one."""
     joined = []
     end = 0
     for match in LITERAL.finditer(code):

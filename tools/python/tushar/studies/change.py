@@ -1,4 +1,4 @@
-"""The error of a run from a saved global: the difference of its change from that of another run, or from a number."""
+"""Errors computed from a saved global quantity: its change, compared with that of another run or with a number."""
 import dataclasses
 import pathlib
 import re
@@ -8,15 +8,15 @@ from tushar.dat import rows_of
 
 @dataclasses.dataclass(frozen=True)
 class Change:
-    """`change.NAME[k]=VALUE`: the k-th component of a global (by default the first), and the expected change; without a
-    value, that of the first run of the study."""
+    """`change.NAME[k]=VALUE`: the k-th component of a global quantity (by default the first), and the expected change;
+    by default, the change in the first run of the study."""
     name: str
     component: int = 0
     value: float = None
 
     @staticmethod
     def of(text):
-        """None if `text` names an error norm of the report."""
+        """Parses `text`; returns None if it names an error norm of the report instead."""
         found = re.fullmatch(r"change\.(\w+)(?:\[(\d)\])?(?:=(\S+))?", text)
         if not found:
             return None
@@ -24,7 +24,7 @@ class Change:
         return Change(name, int(component or 0), None if value is None else float(value))
 
     def measured(self, folder):
-        """Mean over the last quarter of the simulated time minus the first value. This is the final value whether the
+        """Mean over the last quarter of the simulated time, minus the first value. This is the final value whether the
         run oscillates about it or has come to rest. None where the run has not saved the global."""
         files = sorted(pathlib.Path(folder).glob(f"*.uda.*/{self.name}.dat"))
         lines = rows_of(files[-1]) if files else []
@@ -36,5 +36,5 @@ class Change:
         return sum(late) / len(late) - values[0][1]
 
     def error(self, measured, first):
-        """Relative, |measured / expected - 1|."""
+        """The relative error, |measured / expected - 1|."""
         return abs(measured / (first if self.value is None else self.value) - 1)

@@ -1,4 +1,4 @@
-"""Runs every scene of a folder, and reports which run, which are refused and why, and the time of each."""
+"""Runs every scene in a folder, and reports which ones run, which are refused and why, and how long each takes."""
 import concurrent.futures
 import dataclasses
 import json
@@ -27,7 +27,7 @@ GRAIN = .01  # s, between two looks at a run
 
 @dataclasses.dataclass(frozen=True)
 class Scene:
-    """A file that can be run. `name` is its path from the folder."""
+    """A scene file that can be run. `name` is its path relative to the folder."""
     name: str
     path: pathlib.Path
     type: str
@@ -64,7 +64,7 @@ class Outcome:
 
 
 def type_of(path):
-    """The component of a scene, in small letters; empty for a file that is not a scene."""
+    """The component of a scene, in lower case; empty for a file that is not a scene."""
     found = TYPE.search(COMMENT.sub("", path.read_text(encoding="utf-8", errors="replace")))
     return found[1].lower() if found else ""
 
@@ -119,14 +119,14 @@ def result_of(code, limited):
 
 
 class Runner:
-    """Runs scenes, `jobs` at a time. Their files go to a temporary folder that is deleted."""
+    """Runs scenes, `jobs` at a time. Their files are written to a temporary folder, which is deleted."""
 
     def __init__(self, settings, jobs=1):
         self.settings, self.jobs, self._stop = settings, jobs, threading.Event()
 
     def run(self, scenes, tell):
-        """Runs all. Calls `tell` with each outcome as it comes, their number, and all so far in the order of the
-        scenes. An early end, such as by Ctrl-C, ends the runs, too."""
+        """Runs all scenes. Calls `tell` with each outcome as it arrives, the number of outcomes, and all outcomes so
+        far in the order of the scenes. An early end, for example by Ctrl-C, also ends the runs."""
         outcomes = {}
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             waiting = {pool.submit(self.run_scene, scene): scene for scene in scenes}
@@ -159,8 +159,8 @@ class Runner:
         return [*words, "--check"] if self.settings.check else [*words, "--json", os.path.join(folder, "report.json")]
 
     def _wait(self, process, started):
-        """Waits until the run ends; past its limit, stops it, at last by force. Returns whether it was stopped, and
-        what the process has used."""
+        """Waits until the run ends; stops it when its time limit is exceeded, if necessary by force. Returns whether it
+        was stopped, and the resources that the process has used."""
         told = None
         while True:
             ended, status, usage = os.wait4(process.pid, os.WNOHANG)
@@ -192,7 +192,7 @@ class Runner:
 
 
 def work_of(pid):
-    """Processor time that a process has used, s; 0 if the system does not report it."""
+    """Processor time that a process has used [s]; 0 if the system does not report it."""
     try:
         words = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     except OSError:
@@ -227,7 +227,7 @@ def reason_of(outcome):
 
 def blockers(outcomes, result):
     """The reasons why scenes do not run, by message: (message, code, names of scenes, number of these without another
-    problem), the most frequent first. Sentences that block the same scenes stand together."""
+    problem), the most frequent first. Messages for the same scenes are grouped."""
     scenes, numbers = {}, {}
     for outcome in outcomes:
         for problem in outcome.problems if outcome.result == result else []:
@@ -261,7 +261,7 @@ def counts(outcomes, among=()):
 
 
 def as_json(outcomes, about, among=()):
-    """All results, for programs."""
+    """All results as JSON, for programs."""
     return json.dumps({**about, "counts": counts(outcomes, among),
                        "blockers": [{"sentence": sentence, "number": number, "alone": alone, "scenes": names}
                                     for sentence, number, names, alone in blockers(outcomes, "refused")],
@@ -269,7 +269,7 @@ def as_json(outcomes, about, among=()):
 
 
 def escaped(text):
-    """A sentence as a cell of a table: tags are code."""
+    """A sentence as a cell of a Markdown table: tags are marked as code."""
     return re.sub(r"(</?[\w-]+>)", r"`\1`", text).replace("|", "/")
 
 

@@ -10,7 +10,7 @@ def remapped(every):
 
 
 def limited(scene, *limiters):
-    """A line for each limiter of the finite volumes."""
+    """One line of the figures for each limiter of the finite volumes."""
     names = {"minmod": "minmod", "van_leer": "van Leer", "mc": "MC"}
     return [Method(f"MUSCL {names[limiter]}", scene, (f"Euler/limiter={limiter}",)) for limiter in limiters]
 
@@ -34,7 +34,7 @@ SMOOTH = [*(Method(f"paper, {n} particles per cell", "ups/mpm/smooth_wave.ups",
 
 
 def both(name):
-    """The conserving method and finite volumes on a scene that both support."""
+    """Methods for a scene that both the conserving method and finite volumes support."""
     return [Method("conserving apic, remapped every 5", f"ups/mpm/{name}.ups",
                    (f"{CONSERVING}/transfer=apic", *remapped(5))),
             *(Method(f"conserving affine_flip, remapped every {'step' if n == 1 else n}", f"ups/mpm/{name}.ups",
@@ -43,7 +43,7 @@ def both(name):
 
 
 def shapes(scene):
-    """A line for each shape function of solids, and for the transfers with GIMP."""
+    """One line for each shape function of solids, and for the transfers with GIMP."""
     by_shape = {"linear": "linear", "gimp": "GIMP", "cpdi": "CPDI", "3rdorderBS": "quadratic B-splines",
                 "4thorderBS": "cubic B-splines"}
     lines = [Method(name, scene, (f"MPM/interpolator={word}",)) for word, name in by_shape.items()]
@@ -58,7 +58,7 @@ SPARSE = ("MPM/Solver/solver=direct", "MPM/Solver/preconditioner=lu")
 
 
 def at_rest(scene, *sets):
-    """Explicit steps, which are the reference, and implicit ones without inertia."""
+    """Explicit steps, which are the reference, and implicit steps without inertia."""
     return [Method("explicit", scene, sets, is_varied=False),
             Method("implicit, LU", scene, (*sets, *STATIC, *SPARSE)),
             Method("implicit, GMRES with GAMG", scene, (*sets, *STATIC))]

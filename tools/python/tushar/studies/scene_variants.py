@@ -29,7 +29,7 @@ def override(root, text):
 
 
 def save(root, *labels):
-    """Makes the scene save no fields, but these totals in every step."""
+    """Makes the scene save no fields, but save these totals in every step."""
     archiver = root.find("DataArchiver")
     for tag in ("outputInterval", "outputTimestepInterval", "outputInitTimestep", "outputLastTimestep", "checkpoint",
                 "save"):
@@ -55,7 +55,8 @@ def paper(root, particles=4):
 
 
 def finite_volumes(root):
-    """MUSCL-Hancock. Where the scene leaves vacuum there is a gas of 1e-9 times the least density and pressure."""
+    """Selects MUSCL-Hancock. Where the scene leaves vacuum there is a gas of 1e-9 times the least density and
+    pressure."""
     root.find("SimulationComponent").set("type", "euler")
     model = root.find("MaterialProperties/MPM/material/constitutive_model")
     bodies = root.findall("MaterialProperties/MPM/material/geom_object")
@@ -80,7 +81,7 @@ def finite_volumes(root):
 
 
 def _thin_gas(root, bodies):
-    """A body that fills the box."""
+    """A body of thin gas that fills the box."""
     body = xml.Element("geom_object")
     box = xml.SubElement(body, "box", label="thin gas")
     for tag, corner in (("min", "lower"), ("max", "upper")):
@@ -100,6 +101,6 @@ def _is_number(text):
 
 
 def resolve_files(root, folder):
-    """Makes the files that a scene in `folder` names findable from anywhere."""
+    """Replaces the names of files in a scene in `folder` by paths that can be found from anywhere."""
     for element in root.iter("file"):
         element.text = str((folder / element.text.strip()).resolve())

@@ -16,7 +16,8 @@ def cells_of(scene):
 
 
 def resolution(scene, value):
-    """`N` cells along x, and along the other axes in the proportion of the scene; `[nx,ny,nz]` is used unchanged."""
+    """Sets `N` cells along x, and along the other axes in the proportion of the scene; `[nx,ny,nz]` is used
+    unchanged."""
     if not value.startswith("["):
         cells = cells_of(scene)
         value = "[" + ",".join(str(max(1, round(count * int(value) / cells[0]))) if count > 1 else "1"
@@ -25,8 +26,8 @@ def resolution(scene, value):
 
 
 def finest(scene, value):
-    """Cells of which `N` would fill the grid along x: those of the finest level for a scene with <AMR>, otherwise
-    all."""
+    """Sets the number of cells so that `N` of them would fill the grid along x: cells of the finest level for a scene
+    with <AMR>, otherwise all cells."""
     if root_of(scene).find("AMR/Regridder") is None:
         return resolution(scene, value)
     levels = math.log2(int(value) / cells_of(scene)[0])
@@ -37,20 +38,20 @@ def finest(scene, value):
 
 
 def particles(scene, value):
-    """`P` particles per cell along each axis of more than one cell, in every body."""
+    """Sets `P` particles per cell, along each axis with more than one cell, in every body."""
     bodies = root_of(scene).findall("MaterialProperties/MPM/material/geom_object")
     each = "[" + ",".join(value if count > 1 else "1" for count in cells_of(scene)) + "]"
     return [f"MaterialProperties/MPM/material/geom_object[{number}]/res={each}" for number in range(1, len(bodies) + 1)]
 
 
 def cfl(scene, value):
-    """Sets a value in the section of the scene's method."""
+    """Sets a Courant number in the section of the scene's method."""
     sections = [path for path in CFL if root_of(scene).find(path) is not None]
     return [f"{path}/cfl={value}" for path in sections or CFL[:1]]
 
 
 def dt(scene, value):
-    """Steps of this length in seconds, for a method that supports any."""
+    """Sets time steps of this length [s], for a method that supports any length."""
     return [f"Time/delt_init={value}", f"Time/delt_max={value}"]
 
 

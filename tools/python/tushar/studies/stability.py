@@ -27,7 +27,7 @@ def scene_of(case, method):
 
 
 def write_scene(case, method, path):
-    """The scene of a case as a method runs it, without its reference."""
+    """Writes the scene of a case as a method runs it, without its reference solution."""
     root = scene_of(case, method)
     for text in sets_of(case, method):
         scene_variants.override(root, text)
@@ -37,7 +37,7 @@ def write_scene(case, method, path):
 
 
 def sets_of(case, method):
-    """The overrides of that scene when it is run."""
+    """The overrides with which that scene is run."""
     return [*method.sets, *case.sets]
 
 
@@ -54,7 +54,7 @@ class Gallery:
         self.runs = self._known_runs()
 
     def _known_runs(self):
-        """Earlier runs; none if the file is damaged."""
+        """Results of earlier runs; none if the file is damaged."""
         try:
             known = json.loads(self.file.read_text())
             return known["runs"] if known["program"] == self.program else {}
@@ -62,7 +62,7 @@ class Gallery:
             return {}
 
     def scene(self, case, method):
-        """The scene of a case for a method, written where it can be run again by hand."""
+        """Writes the scene of a case for a method to a place where it can be run again by hand."""
         root = scene_of(case, method)
         if root.find("SimulationComponent").get("type") not in ("heat", "impm"):
             scene_variants.save(root, *GLOBALS)
@@ -71,7 +71,7 @@ class Gallery:
         return path
 
     def run(self, case, method, factor=1.0):
-        """The result of a case with a method, with a multiple of the method's own time step."""
+        """The result of running a case with a method, with a multiple of the method's own time step."""
         scene = self.scene(case, method)
         sets = [*sets_of(case, method), f"Time/timestep_multiplier={factor!r}", f"Time/max_wall_time={WALL}"]
         key = hashlib.sha1(json.dumps([scene.read_text(), sets]).encode()).hexdigest()[:12]
@@ -93,8 +93,8 @@ class Gallery:
         path.replace(self.file)
 
     def largest_factor(self, case, method, say):
-        """The largest factor of the time step, at most 16 and to 5 %, with which the run ends and its error is less
-        than twice that with factor 1. None if there is none."""
+        """The largest factor for the time step, at most 16 and accurate to 5 %, with which the run completes and its
+        error is less than twice the error with factor 1. None if there is no such factor."""
         first = self.run(case, method)
         if first.get("failure"):
             return None
@@ -112,7 +112,7 @@ class Gallery:
 
 
 def error_of(case, errors):
-    """The path of a case's error in a report; if a method has no particle error, the L2 norm over cells."""
+    """The path in a report to the error of a case; if a method has no particle error, the L2 norm over cells."""
     variable, where, norm = case.error.split(".")
     has_it = where != "particle" or where in errors.get(variable, {})
     return case.error if has_it else f"{variable}.cell.L2"
@@ -139,14 +139,14 @@ def measured(report, totals, case):
 
 
 def is_stable(run, first):
-    """Whether a run survives with at most twice the error of another."""
+    """Whether a run completes with at most twice the error of another."""
     if run["failure"] or run["ended"] != "maxTime":
         return False
     return "error" not in first or run["error"] <= 2 * max(first["error"], 1e-12)
 
 
 def judge(run, case, isOurs):
-    """`pass`, or the bound that a run violates. The error counts for the default method alone: others have no bound."""
+    """`pass`, or the bound that a run violates. The error counts only for the default method: others have no bound."""
     if case.fails:
         return ["pass"] if case.fails in run["failure"] else ["did not fail as it should"]
     if run["failure"]:
@@ -193,7 +193,7 @@ def write_markdown(rows, command, path):
 
 
 def first_sentence(failure):
-    """Why a run failed, without the values around and the advice."""
+    """The reason why a run failed, without surrounding values and advice."""
     text = failure.removeprefix("sus: ")
     place = text[text.rfind("(task"):].split(")")[0] + ")" if "(task" in text else ""
     return f"{text.split('; around it')[0].split(' (task')[0]} {place}".strip()

@@ -1,4 +1,4 @@
-"""The map of the gallery: a row for each case, a column for each method."""
+"""The map of the gallery: one row for each case, one column for each method."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -14,7 +14,7 @@ def kind(row):
 
 
 def draw(rows, path):
-    """Writes the map: error and largest time-step factor of each case with each method."""
+    """Draws the map: error and largest time-step factor of each case with each method."""
     cases = list(dict.fromkeys(row["case"] for row in rows))
     methods = list(dict.fromkeys(row["method"] for row in rows))
     with plt.rc_context(STYLE | {"axes.grid": False}):

@@ -18,7 +18,7 @@ from tushar.studies.shorthand import SHORT
 
 
 class StudyError(Exception):
-    """An error, in a sentence."""
+    """An error in a study, described in a sentence."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,13 +46,13 @@ class Case:
         return sets
 
     def key(self):
-        """Equal only for exactly the same scene with the same overrides."""
+        """A key that is equal only for exactly the same scene with the same overrides."""
         text = json.dumps([self.method.name, self.method.scene, scene_text(self.method.scene), self.overrides()])
         return hashlib.sha1(text.encode()).hexdigest()[:12]
 
 
 def scene_text(scene, outer=()):
-    """The text of a scene with the files that it includes; '' if it cannot be read, which sus will report."""
+    """The text of a scene and of the files that it includes; '' if it cannot be read, which sus will report."""
     path = scene_path(scene)
     try:
         text = path.read_text(errors="replace")
@@ -75,7 +75,7 @@ class Study:
         self.runs = self._known_runs()
 
     def _known_runs(self):
-        """Reports of earlier runs of this study by case; those of another program are forgotten."""
+        """Reports of earlier runs of this study, by case; those of another program are discarded."""
         path = self.folder / "study.json"
         if not path.exists():
             return {}
@@ -86,7 +86,7 @@ class Study:
         return hashlib.sha1(self.sus.read_bytes()).hexdigest()
 
     def todo(self):
-        """Cases still to be run, a whole round of all before the next one."""
+        """Cases still to be run, in rounds: all cases once, then all again."""
         for repeat in range(self.repeats):
             for case in self.cases:
                 if len(self.runs.get(case.key(), [])) <= repeat:
@@ -137,7 +137,8 @@ class Study:
         return self.change.error(report["change"], self.runs[self.cases[0].key()][0].get("change"))
 
     def rows(self):
-        """One row for each case that has run: error, cell width, median run time, orders against the case before."""
+        """One row for each case that has been run: error, cell width, median run time, and the orders relative to the
+        previous case."""
         rows = []
         for case in self.cases:
             reports = self.runs.get(case.key())
@@ -163,21 +164,21 @@ class Study:
 
 
 def time_by_task(reports):
-    """Task -> median of its time over the runs [s], and of the time that the time loop spent outside tasks."""
+    """Task -> median over the runs of the task's time [s], and of the time that the time loop spent outside tasks."""
     walls = [report["wall"] for report in reports]
     tasks = {name: statistics.median(wall["tasks"][name] for wall in walls) for name in walls[0]["tasks"]}
     return tasks | {"between tasks": statistics.median(wall["loop"] - sum(wall["tasks"].values()) for wall in walls)}
 
 
 def order(before, row):
-    """Observed order of the error in h between two rows; None if there is none."""
+    """Observed order of the error in the cell width h between two rows; None if there is none."""
     if before is None or before["h"] == row["h"] or not before["error"] > 0 or not row["error"] > 0:
         return None
     return math.log(before["error"] / row["error"]) / math.log(before["h"] / row["h"])
 
 
 def value_at(tree, path):
-    """errors, `density.cell.L1` -> number; StudyError with the available names."""
+    """The number at a path such as `density.cell.L1` in `errors`; raises StudyError with the available names."""
     for word in path.split("."):
         if word not in tree:
             raise StudyError(f"there is no error '{path}': at '{word}', available: {', '.join(tree) or 'nothing'}")
@@ -186,7 +187,8 @@ def value_at(tree, path):
 
 
 def write_csv(rows, path):
-    """A line for each row; the last columns are tasks, `tasks.NAME` [s], empty if a method has no such task."""
+    """Writes one line for each row; the last columns are tasks, `tasks.NAME` [s], empty if a method has no such
+    task."""
     flat = [{name: value for name, value in row.items() if name not in ("tasks", "varied")} for row in rows]
     times = [{f"tasks.{name}": seconds for name, seconds in row.get("tasks", {}).items()} for row in rows]
     columns = list(dict.fromkeys(name for part in (flat, times) for row in part for name in row))

@@ -11,7 +11,7 @@ MARKERS = "osD^vP"
 
 
 def lines_of(rows):
-    """Method -> its rows of successful runs, largest cells first."""
+    """Method -> the rows of its successful runs, largest cells first."""
     lines = {}
     for row in rows:
         if "died" not in row:
@@ -80,7 +80,7 @@ def _draw_key(key, axes, columns=2):
 
 
 def _order_triangle(axes, lines, order):
-    """A triangle with this slope below the finest two points of the best line."""
+    """Draws a triangle with this slope below the finest two points of the best line."""
     best = min((line for line in lines.values() if len(line) > 1), key=lambda line: line[-1]["error"], default=None)
     if best is None:
         return
@@ -124,7 +124,7 @@ def _time_by_task(lines):
 
 
 def _colours_of_tasks(bars):
-    """Task -> colour, the same in all bars; grey for the rest."""
+    """Task -> colour, the same in all bars; grey for the remaining tasks."""
     names = [task for task in dict.fromkeys(task for _, row in bars for task in row["tasks"])
              if task != "between tasks"]
     palette = plt.get_cmap("tab20").colors + plt.get_cmap("tab20b").colors

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// Adds the term of one cell in (9), P_c V_c grad S_i at the centre of the cell, to the force on its nodes.
+/// Adds the contribution of one cell in (9), P_c V_c grad S_i at the centre of the cell, to the force on its nodes.
 template <int D>
 void addPressureForce(const Level& level, const Index<D>& cell, double pressureTimesVolume, NodeView<Vec<D>> force) {
   for (int k = 0; k < Linear<D>::nodes; ++k) {
@@ -16,11 +16,12 @@ void addPressureForce(const Level& level, const Index<D>& cell, double pressureT
   }
 }
 
-/// F_i = sum over the cells c around node i of P_c V_c grad S_i(middle of c),   P_c = 1/N_c sum over p in c of p_p:
+/// Computes F_i = sum over the cells c around node i of P_c V_c grad S_i(middle of c),   P_c = 1/N_c sum over p in c of
+/// p_p:
 /// (9) of Tran, Kim & Berzins, in any dimension. In one dimension F_i = P_below - P_above, times the cross-section.
 ///
-/// `pressure` is that of the state at the start of the step: (16) of the step before, artificial viscosity included.
-/// `force` [N] is complete on all nodes of the patch. A cell without particles has no pressure.
+/// `pressure` belongs to the state at the start of the step: the previous step computed it with (16), including
+/// artificial viscosity. `force` [N] is complete on all nodes of the patch. A cell without particles has no pressure.
 template <int D>
 void computeInternalForce(const Patch& patch, const Gas&, ParticleView<const double> pressure, NodeView<Vec<D>> force) {
   const Level& level = patch.level();
@@ -33,7 +34,8 @@ void computeInternalForce(const Patch& patch, const Gas&, ParticleView<const dou
   });
 }
 
-/// (9) for particles that keep their mass: P_c is the mean of p_p weighted with the particles' volumes m_p / rho_p.
+/// Computes (9) for particles that keep their mass: P_c is the mean of p_p, weighted by the particles' volumes m_p /
+/// rho_p.
 template <int D>
 void computeInternalForceOfVolumes(const Patch& patch, const Gas&, ParticleView<const double> pressure,
                                    ParticleView<const double> mass, ParticleView<const double> density,

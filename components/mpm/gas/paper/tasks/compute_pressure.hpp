@@ -9,8 +9,8 @@ namespace tushar::mpm::gas::paper {
 
 /// p = (gamma - 1) rho eps + a_v                                 (16) of Tran, Kim & Berzins
 ///
-/// with a_v = rho (C_q h² d² - C_l h c d) where the gas is compressed (d < 0), else 0 [Pa]. h is the least cell width,
-/// c the speed of sound, d the divergence of (14)-(15) in the step just done.
+/// with a_v = rho (C_q h² d² - C_l h c d) in compression (d < 0), else 0 [Pa]. h is the smallest cell width, c the
+/// speed of sound, d the divergence of (14)-(15) in the step just computed.
 template <int D>
 void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, ParticleView<const double> density,
                      ParticleView<const double> internalEnergy, ParticleView<const double> divergence,
@@ -30,7 +30,8 @@ void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscos
     press([&](double rho, double energy) { return gas.heat(rho, energy); });
 }
 
-/// p = (gamma - 1) rho eps: (3), which is (16) without viscosity. At the start of a run nothing is compressed.
+/// Computes p = (gamma - 1) rho eps, (3), which is (16) without viscosity: at the start of a run there is no
+/// compression.
 template <int D>
 void computeInitialPressure(const Patch&, const Gas& gas, ParticleView<const double> density,
                             ParticleView<const double> internalEnergy, ParticleView<double> pressure) {
@@ -52,7 +53,8 @@ void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> 
   });
 }
 
-/// dt = cfl h / max_p(|v_p| + c_p), h the least cell width: keeps dt dv/dx small, (17) of Tran, Kim & Berzins.
+/// Computes dt = cfl h / max_p(|v_p| + c_p), where h is the smallest cell width. This keeps dt dv/dx small, as (17) of
+/// Tran, Kim & Berzins requires.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
                            ParticleView<const double> internalEnergy, Minimum& dt) {

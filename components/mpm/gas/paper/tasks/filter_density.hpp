@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// Mean density of the particles of each cell [kg/m³]; 0 in cells without any.
+/// Computes the mean density of the particles in each cell [kg/m³]; 0 in empty cells.
 template <int D>
 void averageDensity(const Patch& patch, const Gas&, ParticleView<const double> density, CellView<double> mean) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -15,13 +15,13 @@ void averageDensity(const Patch& patch, const Gas&, ParticleView<const double> d
   });
 }
 
-/// (18) of Tran, Kim & Berzins, applied to density; nodal velocities are not filtered. Where the mean density r_c of a
-/// cell is an extremum along an axis, (r_{c-1} - r_c)(r_{c+1} - r_c) > 0, the density of each of its particles grows by
-/// (r_{c-1} - 2 r_c + r_{c+1}) / 3, so that r_c becomes the mean of the three cells.
+/// Applies (18) of Tran, Kim & Berzins to the density; nodal velocities are not filtered. Where the mean density r_c of
+/// a cell is an extremum along an axis, (r_{c-1} - r_c)(r_{c+1} - r_c) > 0, the density of each of its particles
+/// changes by (r_{c-1} - 2 r_c + r_{c+1}) / 3, so that r_c becomes the mean of the three cells.
 ///
-/// All cells are filtered at once, except those at the rim of the grid or next to an empty cell. An extremum equally
-/// sharp along k axes becomes the mean of its 2k + 1 cells and never overshoots; one that is sharp along one axis, and
-/// mere round-off along the others, is filtered as in one dimension.
+/// All cells are filtered from the same unfiltered means, except those at the rim of the grid or next to an empty cell.
+/// An extremum equally sharp along k axes becomes the mean of its 2k + 1 cells and never overshoots; one that is sharp
+/// along one axis, and mere round-off along the others, is filtered as in one dimension.
 template <int D>
 void filterDensity(const Patch& patch, const Gas&, CellView<const double> mean, ParticleView<double> density) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

@@ -22,7 +22,7 @@ void computeAndIntegrateAcceleration(const Patch&, const Gas&, NodeView<const do
   });
 }
 
-/// Nothing moves through a symmetry plane: the normal components of v*_i and a_i are 0 there.
+/// Ensures that nothing moves through a symmetry plane: the normal components of v*_i and a_i are set to 0 there.
 template <int D>
 void setGridBoundaryConditions(const Patch& patch, const Gas&, NodeView<Vec<D>> acceleration,
                                NodeView<Vec<D>> velocityStar) {

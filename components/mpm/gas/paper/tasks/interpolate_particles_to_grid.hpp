@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The contributions of one cell's particles to its nodes: mass of (6) [kg] and momentum of (7) [kg m/s].
+/// Adds the contributions of one cell's particles to its nodes: mass of (6) [kg] and momentum of (7) [kg m/s].
 template <int D>
 struct NodalSums {
   std::array<double, Linear<D>::nodes> mass{};
@@ -58,7 +58,7 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<con
   });
 }
 
-/// Only m_i = sum_p S_ip m_p: the projected mass of a state, which diagnostics compare with exact densities.
+/// Computes only m_i = sum_p S_ip m_p: the projected mass of a state, which diagnostics compare with exact densities.
 template <int D>
 void interpolateMassToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
                            ParticleView<const double> particleMass, NodeView<double> mass) {

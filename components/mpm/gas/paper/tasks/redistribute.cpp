@@ -31,7 +31,7 @@ struct Totals {
   Vec<D> velocity() const { return momentum / mass; }
 };
 
-/// The two pieces closest to each other; if there are several such pairs, the first in the order of the list.
+/// The two pieces that are closest to each other; if there are several such pairs, the first in the order of the list.
 template <int D>
 std::pair<std::size_t, std::size_t> nearestPair(const std::vector<Piece<D>>& pieces) {
   std::pair<std::size_t, std::size_t> best{0, 1};
@@ -61,7 +61,7 @@ Piece<D> joined(const Piece<D>& a, const Piece<D>& b) {
 }
 
 /// Adds the cell's velocity slopes about the centre of mass, scaled down if they would increase the kinetic energy;
-/// what is left of the energy becomes heat.
+/// kinetic energy that is left over becomes heat.
 template <int D>
 void shearPieces(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Totals<D>& before) {
   Vec<D> centre = Vec<D>::Zero();

@@ -8,19 +8,19 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The redistribution of particles in cells with too few or too many.
+/// How particles are redistributed in cells that contain too few or too many of them.
 struct Redistribution {
   enum class Mode {
-    splitMerge,  ///< halve large ones, merge close ones
-    reseed,      ///< put new ones at the centres of equal parts of the cell
+    splitMerge,  ///< halve large particles, merge close ones
+    reseed,      ///< replace the particles by new ones at the centres of equal parts of the cell
   };
-  Location where;  ///< in the scene
+  Location where;  ///< location of its tag in the scene
   Mode mode = Mode::splitMerge;
-  int minParticles = 2;     ///< per cell
-  int maxParticles = 16;    ///< per cell
-  int targetParticles = 4;  ///< number per cell for `reseed`; along each axis, its D-th root, rounded up
+  int minParticles = 2;     ///< smallest number of particles per cell
+  int maxParticles = 16;    ///< largest number of particles per cell
+  int targetParticles = 4;  ///< number of particles per cell for `reseed`; along each axis, its D-th root, rounded up
 
-  /// Particles along each axis of a reseeded cell.
+  /// Number of particles along each axis of a reseeded cell.
   int seededAlongAxis(int dimension) const {
     int number = 1;
     while (std::pow(number, dimension) < targetParticles) ++number;
@@ -28,7 +28,7 @@ struct Redistribution {
   }
 };
 
-/// The properties of a particle for redistribution.
+/// The properties of a particle that are needed for redistribution.
 template <int D>
 struct Piece {
   ParticleId id = 0;
@@ -42,10 +42,10 @@ struct Piece {
 /// metre.
 template <int D>
 struct CellShape {
-  Vec<D> lower, spacing;  ///< lower corner and widths, m
-  double volume = 0;      ///< m³
+  Vec<D> lower, spacing;  ///< lower corner and widths [m]
+  double volume = 0;      ///< volume [m³]
   Vec<D> densitySlope = Vec<D>::Zero(), pressureSlope = Vec<D>::Zero();
-  std::array<Vec<D>, D> velocitySlope;  ///< of each velocity component
+  std::array<Vec<D>, D> velocitySlope;  ///< slopes of each velocity component
 
   CellShape() { velocitySlope.fill(Vec<D>::Zero()); }
   CellShape(const Level& level, const Index<D>& cell) : CellShape() {
@@ -57,39 +57,40 @@ struct CellShape {
   }
 };
 
-/// Halves pieces larger than V_c / (2 N_min), in the order of their ids, until there are N_min: equal mass and volume
-/// at x ± min(V, V_c) / V_c h / 4 along the longest axis of the cell (moved inside the cell where they would leave
-/// it), same velocity, energy and density.
+/// Halves pieces larger than V_c / (2 N_min), in the order of their ids, until there are N_min. The halves have equal
+/// mass and volume, and lie at x ± min(V, V_c) / V_c h / 4 along the longest axis of the cell (moved inside where they
+/// would leave it); velocity, energy and density stay the same.
 template <int D>
 void split(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, int minParticles);
 
-/// Merges the two closest pieces until there are N_max: positions and velocities are averaged with their masses as
-/// weights, volumes are added; the kinetic energy m1 m2 |v1 - v2|² / (2 (m1 + m2)) that this loses becomes heat.
+/// Merges the two closest pieces until there are N_max. Positions and velocities are averaged, weighted by mass, and
+/// volumes are added. The lost kinetic energy, m1 m2 |v1 - v2|² / (2 (m1 + m2)), becomes heat.
 template <int D>
 void merge(std::vector<Piece<D>>& pieces, int maxParticles);
 
-/// Puts n^D pieces of equal volume at the midpoints of the cell. Density, velocity and pressure have the slopes of the
-/// cell; those of the velocity are about the centre of mass, and scaled so that the kinetic energy does not grow. Lost
-/// kinetic energy becomes heat. Mass, momentum and total energy are conserved.
+/// Places n^D pieces of equal volume at the midpoints of equal parts of the cell. Density, velocity and pressure have
+/// the slopes of the cell; velocity slopes are taken about the centre of mass, and scaled so that the kinetic energy
+/// does not increase. Lost kinetic energy becomes heat. Mass, momentum and total energy are conserved.
 template <int D>
 void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas, int alongAxis);
 
-/// Means over the particles of a cell and of its neighbours, limited by minmod: the slopes for `reseed`.
+/// Computes the slopes for `reseed` from the means over the particles of a cell and of its neighbours, limited by
+/// minmod.
 template <int D>
 void setSlopes(CellShape<D>& cell, const std::vector<Piece<D>>& here,
                const std::array<std::vector<Piece<D>>, 2 * D>& around, const Gas& gas);
 
-/// Redistributes one cell.
+/// Redistributes the particles of one cell.
 template <int D>
 void redistributeCell(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas,
                       const Redistribution& how);
 
-/// The particles that redistribution reads.
+/// Views of the particles that redistribution reads.
 template <int D>
 struct OldParticles {
   ParticleView<const ParticleId> ids;
   ParticleView<const Vec<D>> x, velocity;
-  std::optional<ParticleView<const double>> mass;  ///< if particles keep it
+  std::optional<ParticleView<const double>> mass;  ///< masses, if particles keep their mass
   ParticleView<const double> density, internalEnergy, divergence;
 
   static OldParticles from(auto& take, bool keepsMass, int ghost) {
@@ -102,8 +103,8 @@ struct OldParticles {
             .divergence = take(requiresNew(p::velocityDivergence, ghost))};
   }
 
-  /// The particles of a cell of volume `cellVolume`; none of a cell outside the grid. A particle has the volume m_p /
-  /// rho_p where it keeps its mass, else an equal share of the cell's, (5) of Tran, Kim & Berzins.
+  /// The particles of a cell of volume `cellVolume`; empty for a cell outside the grid. If particles keep their mass, a
+  /// particle has the volume m_p / rho_p, otherwise an equal share of the cell's volume, (5) of Tran, Kim & Berzins.
   std::vector<Piece<D>> in(const Index<D>& cell, double cellVolume) const {
     std::vector<Piece<D>> pieces;
     if (!x.cells().contains(cell)) return pieces;
@@ -120,7 +121,7 @@ struct OldParticles {
 template <int D>
 struct NewParticles {
   std::vector<Vec<D>>&x, &velocity;
-  std::vector<double>* mass;  ///< null if particles do not keep it
+  std::vector<double>* mass;  ///< masses; null if particles do not keep their mass
   std::vector<double>&density, &internalEnergy, &divergence;
 
   static NewParticles from(auto& take, bool keepsMass) {

@@ -14,13 +14,13 @@ struct CellNodes {
   CellNodes(NodeView<const Vec<D>> field, const Index<D>& cell) {
     for (int k = 0; k < Linear<D>::nodes; ++k) values[k] = field[Linear<D>::node(cell, k)];
   }
-  /// sum_i S_ip f_i
+  /// Interpolates to a particle: sum_i S_ip f_i
   Vec<D> at(const typename Linear<D>::Weights& s) const {
     Vec<D> sum = s[0] * values[0];
     for (std::size_t k = 1; k < s.size(); ++k) sum += s[k] * values[k];
     return sum;
   }
-  /// sum_i f_i . grad S_i at the centre of the cell: the divergence of f there.
+  /// The divergence of f at the centre of the cell: sum_i f_i . grad S_i.
   double divergence(const Level& level) const {
     double sum = 0;
     for (int k = 0; k < Linear<D>::nodes; ++k)
@@ -29,12 +29,12 @@ struct CellNodes {
   }
 };
 
-/// The variables that updateParticles reads and writes.
+/// Views of the variables that updateParticles reads and writes.
 template <int D>
 struct ParticleUpdate {
   // Particles at t_n.
   ParticleView<const Vec<D>> x, velocity;
-  std::optional<ParticleView<const double>> mass;  ///< if particles keep it
+  std::optional<ParticleView<const double>> mass;  ///< masses, if particles keep their mass
   ParticleView<const double> density, internalEnergy, pressure;
   // The grid.
   NodeView<const Vec<D>> acceleration;  ///< a_i at t_n
@@ -90,11 +90,12 @@ void updateParticles(const Patch& patch, const Gas&, ParticleUpdate<D> u, double
   }
 }
 
-/// (12), (13) and (15) for particles that keep their mass, with (14) such that total energy is conserved to round-off.
+/// Updates particles that keep their mass by (12), (13) and (15), and their energy, instead of by (14), such that total
+/// energy is conserved to round-off.
 ///
 /// The work of the pressure of a cell, -P_c V_c div(v_half) dt with v_half = v* - a dt/2, goes to its particles in
-/// proportion to p_p times their volume m_p / rho_p; the kinetic energy that (12) loses,
-/// dt²/2 (sum_i S_ip a_i² - |sum_i S_ip a_i|²) per mass and never negative, becomes heat.
+/// proportion to p_p times their volume m_p / rho_p; the kinetic energy that (12) loses, dt²/2 (sum_i S_ip a_i² -
+/// |sum_i S_ip a_i|²) per mass and never negative, becomes heat.
 template <int D>
 void updateParticlesConserving(const Patch& patch, const Gas&, ParticleUpdate<D> u, double dt) {
   const Level& level = patch.level();

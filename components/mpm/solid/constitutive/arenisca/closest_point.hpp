@@ -8,9 +8,9 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// A stress in terms of its invariants, in the axes of its deviator.
+/// A stress given by its invariants, in the axes of its deviator.
 struct Invariants {
-  double i1, rootJ2;  ///< Pa
+  double i1, rootJ2;  ///< I1 and sqrt J2 [Pa]
   LodeAngle theta;
 
   explicit Invariants(const Matrix3& stress) : i1(stress.trace()) {
@@ -26,7 +26,8 @@ struct Invariants {
   Invariants(double i1_, double rootJ2_, LodeAngle theta_) : i1(i1_), rootJ2(rootJ2_), theta(theta_) {}
 };
 
-/// The root of an increasing f, by bisection to all but the last few bits; an end of the interval if there is no root.
+/// The root of an increasing function f, by bisection to all but the last few bits; an end of the interval if there is
+/// no root.
 template <class F>
 double crossing(double low, double high, const F& f) {
   const double width = 1e-14 * std::max(std::abs(low), std::abs(high));
@@ -37,7 +38,7 @@ double crossing(double low, double high, const F& f) {
   return 0.5 * (low + high);
 }
 
-/// The minimum of a unimodal f, by the golden-section search.
+/// The minimum of a unimodal function f, by golden-section search.
 template <class F>
 double least(double low, double high, const F& f) {
   constexpr double golden = std::numbers::phi - 1;
@@ -60,15 +61,15 @@ double least(double low, double high, const F& f) {
 
 /// The point of a yield surface nearest to a stress outside it, in the space of z = I1 / sqrt 3 and
 /// r = beta sqrt(3/2 K/G) sqrt(2 J2): for beta = 1 the return of associated plasticity with the moduli K and G. Homel,
-/// Guilkey & Brannon, Comput. Mech. 56 (2015) 565. They search from within by bisection and rotation; here the distance
-/// to the sections across the axis, which is convex along it as the surface is, has its least value found by bisection
-/// of its derivative.
+/// Guilkey & Brannon, Comput. Mech. 56 (2015) 565. They search from within by bisection and rotation. Here, the
+/// distance to the sections of the surface across the axis is minimised by bisection of its derivative along the axis;
+/// the distance is convex because the surface is.
 class ClosestPoint {
  public:
   ClosestPoint(const Constants& c, const Moduli& moduli, const YieldSurface& surface)
       : surface_(surface), stretch_(c.flowFactor * std::sqrt(3 * moduli.bulk / moduli.shear)) {}
 
-  /// For the trial stress, by its invariants.
+  /// The point of the surface that is closest to a trial stress; both are given by their invariants.
   Invariants operator()(const Invariants& trial) const {
     const double at = (trial.i1 - surface_.zeta()) / root3, radius = stretch_ * trial.rootJ2;
     if (surface_.capLength() > 0) return onCone(at, radius, trial.theta);
@@ -87,8 +88,8 @@ class ClosestPoint {
  private:
   static constexpr double root3 = std::numbers::sqrt3;
 
-  /// On a cone with a tangent cap: the foot on the line r = B (z_vertex - z) in closed form, the vertex, or the point
-  /// of the ellipse.
+  /// The closest point on a cone with a tangent cap: a point of the line r = B (z_vertex - z), in closed form, the
+  /// vertex, or a point of the ellipse.
   Invariants onCone(double at, double radius, LodeAngle theta) const {
     const double vertex = surface_.vertex() / root3, steepness = -surface_.slope(surface_.vertex()) * root3 * stretch_;
     const double ahead = (vertex - at + steepness * radius) / (1 + steepness * steepness);  // of the foot
@@ -98,7 +99,8 @@ class ClosestPoint {
     if (!isOutside || root3 * z < surface_.branch()) return onEllipse(at, radius, theta);
     return {root3 * z + surface_.zeta(), steepness * ahead / stretch_, theta};
   }
-  /// On the cap (-a cos phi, b sin phi) about its centre, the point at which the distance stops decreasing with phi.
+  /// The closest point on the elliptic cap, which is (-a cos phi, b sin phi) relative to its centre: the point at which
+  /// the distance stops decreasing with phi.
   Invariants onEllipse(double at, double radius, LodeAngle theta) const {
     const double a = surface_.capLength() / root3, b = surface_.capHeight() * stretch_;
     const double middle = surface_.end() / root3 + a, away = at - middle;
@@ -111,7 +113,8 @@ class ClosestPoint {
     if (radius > 0) phi = slope(touch) <= 0 ? touch : rootBetween(slope, 0, touch);
     return {root3 * (middle - a * std::cos(phi)) + surface_.zeta(), b * std::sin(phi) / stretch_, theta};
   }
-  /// The distance of the trial from the section at z, outside it, times d(r)/d(radius) of the nearest point there.
+  /// The distance of the trial point from the section at z, outside the section, times d(r)/d(radius) of the nearest
+  /// point there.
   double gapOf(double z, double trialRadius, LodeAngle trialTheta) const {
     const double radius = stretch_ * surface_.radius(root3 * z);
     if (trialRadius <= radius * surface_.lodeFactor(trialTheta)) return 0;
@@ -119,7 +122,7 @@ class ClosestPoint {
     const double factor = surface_.lodeFactor(theta);
     return (trialRadius * std::cos(theta - trialTheta) - radius * factor) * factor;
   }
-  /// The Lode angle of the point of a section that is nearest to the trial.
+  /// The Lode angle of the point of a section that is nearest to the trial point.
   LodeAngle nearestAngle(double radius, double trialRadius, LodeAngle trialTheta) const {
     if (surface_.isRound() || radius == 0) return trialTheta;
     constexpr double sixth = std::numbers::pi / 6;
@@ -130,10 +133,10 @@ class ClosestPoint {
   }
 
   const YieldSurface& surface_;
-  double stretch_;  ///< r over sqrt J2
+  double stretch_;  ///< ratio of r to sqrt J2
 };
 
-/// The stress with given invariants and the axes of `trial`.
+/// The stress with the given invariants and the axes of `trial`.
 inline Matrix3 stressWith(const Invariants& invariants, const Matrix3& trial, const Invariants& before) {
   const Matrix3 mean = invariants.i1 / 3 * Matrix3::Identity();
   if (before.rootJ2 == 0) return mean;

@@ -11,40 +11,43 @@ namespace tushar::mpm::solid::arenisca {
 /// The constants of Arenisca in a scene, with the symbols of its publications. Stresses are positive in tension; I1 is
 /// the trace of the stress, J2 the second invariant of its deviator.
 struct Constants {
-  double peakI1 = 0;         ///< I1 at the vertex of the yield surface, Pa
-  double vertexSlope = 0;    ///< FSLOPE: -d(sqrt J2)/dI1 at the vertex, 1
-  double strength = 0;       ///< STREN: sqrt J2 of the limit surface at high pressure, Pa; 0: none
-  double pressureSlope = 0;  ///< YSLOPE: -d(sqrt J2)/dI1 at high pressure, 1
-  double flowFactor = 1;     ///< beta, factor of the deviator in the space of closest points; 1: associated flow
-  double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and its increase at high pressure, Pa
-  double b2 = 0;             ///< the pressure at which it increases, times 3, Pa
+  double peakI1 = 0;         ///< I1 at the vertex of the yield surface [Pa]
+  double vertexSlope = 0;    ///< FSLOPE: -d(sqrt J2)/dI1 at the vertex [1]
+  double strength = 0;       ///< STREN: sqrt J2 of the limit surface at high pressure [Pa]; 0: no such limit
+  double pressureSlope = 0;  ///< YSLOPE: -d(sqrt J2)/dI1 at high pressure [1]
+  double flowFactor = 1;     ///< beta, the factor of the deviator in the space of closest points; 1: associated flow
+  double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and its increase at high pressure [Pa]
+  double b2 = 0;             ///< 3 times the pressure at which the bulk modulus increases [Pa]
   double b3 = 0,
-         b4 = 0;             ///< its reduction by plastic compaction, Pa, and the strain for that, 1
-  double g0 = 0;             ///< shear modulus, Pa
-  double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and its increase at high pressure, 1; 0: G = g0
-  double p0 = 0;             ///< I1 at which pores begin to collapse, Pa
-  double p1 = 0;             ///< constant of the crush curve, 1/Pa
-  double p3 = 0;             ///< volumetric strain at which all pores have collapsed, 1
+         /// Reduction of the bulk modulus by plastic compaction [Pa], and the strain for that reduction [1].
+      b4 = 0;
+  double g0 = 0;             ///< shear modulus [Pa]
+  double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and its increase at high pressure [1]; 0: G = g0
+  double p0 = 0;             ///< I1 at which pores begin to collapse [Pa]
+  double p1 = 0;             ///< constant of the crush curve [1/Pa]
+  double p3 = 0;             ///< volumetric strain at which all pores have collapsed [1]
   double capRatio = 0;       ///< CR: (vertex - start of the cap) / (vertex - end of the cap)
-  double fluidBulk = 0;      ///< K_f, Pa; 0: pores are empty
-  double fluidPressure = 0;  ///< at the start, Pa
-  double t1 = 0, t2 = 0;     ///< relaxation time t1 |D|^-t2, s for |D| in 1/s
-  double capShape = 0;       ///< CR of Arenisca: height over length of the ellipse of a tangent cap; 0: capRatio
+  double fluidBulk = 0;      ///< K_f, bulk modulus of the fluid [Pa]; 0: pores are empty
+  double fluidPressure = 0;  ///< initial pressure of the fluid [Pa]
+  double t1 = 0, t2 = 0;     ///< constants of the relaxation time t1 |D|^-t2 [s], with |D| in 1/s
+  /// CR of Arenisca: ratio of height to length of the ellipse of a tangent cap; 0: capRatio is used
+  double capShape = 0;
   double mostSubsteps = 256;
-  int lodeType = 0;      ///< dependence on the Lode angle: 0 none, 1 Gudehus, 3 Mohr-Coulomb
-  double lodeRatio = 1;  ///< psi: strength in triaxial compression over that in extension
+  int lodeType = 0;      ///< dependence on the Lode angle; 0: none, 1: Gudehus, 3: Mohr-Coulomb
+  double lodeRatio = 1;  ///< psi: ratio of the strength in triaxial compression to that in extension
 
   /// Whether Poisson's ratio is given; otherwise G = g0.
   bool hasPoissonRatio() const { return g1 != 0 && g2 != 0; }
   /// Whether the cap is an ellipse tangent to the cone, and the moduli are constant: the model type `Arenisca`.
   bool hasTangentCap() const { return capShape > 0; }
-  /// K_m: bulk modulus of the grains, Pa.
+  /// K_m, bulk modulus of the grains [Pa].
   double matrixBulk() const { return b0 + b1; }
-  /// phi_0: porosity at the start.
+  /// phi_0, initial porosity.
   double porosity() const { return 1 - std::exp(-p3); }
-  /// C_1 = K_f (1 - phi_0) + K_m phi_0, Pa
+  /// C_1 = K_f (1 - phi_0) + K_m phi_0 [Pa]
   double mixedBulk() const { return fluidBulk * (1 - porosity()) + matrixBulk() * porosity(); }
-  /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and ruptures.
+  /// Whether a fluid fills the pores at a volumetric strain. At larger strains, the fluid would be in tension, and
+  /// ruptures.
   bool isSaturated(double strain) const {
     return fluidBulk != 0 && strain <= mixedBulk() * fluidPressure / (fluidBulk * matrixBulk());
   }
@@ -67,7 +70,7 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
                       "PEAKI1, FSLOPE, STREN and YSLOPE define no limit surface; allowed: FSLOPE > 0, STREN and YSLOPE "
                       "0 (a cone); STREN > 0 alone (a cylinder); FSLOPE and STREN > 0, the other two 0; FSLOPE > "
                       "YSLOPE > 0 and STREN > YSLOPE PEAKI1");
-  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: must be below 0, as pores collapse under compression");
+  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: is not below 0, but pores collapse in compression");
   if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so pores would not collapse at any pressure");
   if (c.hasPoissonRatio())
     for (const double ratio : {c.g1, c.g1 + c.g2})
@@ -76,12 +79,12 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
                                                "not be positive; keep it between -1 and 0.5",
                                                ratio));
   if ((c.t1 > 0) != (c.t2 > 0))
-    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: must both be 0 or both be positive");
+    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: one is 0, the other is positive");
   if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)
-    diagnostics.error(element, "J3_type: must be 0, 1 (Gudehus) or 3 (Mohr-Coulomb)");
+    diagnostics.error(element, "J3_type: expected 0, 1 (Gudehus) or 3 (Mohr-Coulomb)");
 }
 
-/// Declares tags of a model for members of its Constants.
+/// Declares tags of a model that fill members of its Constants.
 template <class M>
 struct Tags {
   input::Schema<M>& schema;
@@ -96,7 +99,7 @@ struct Tags {
   }
 };
 
-/// Tags of the cone with a cap, the crush curve, and the rate dependence.
+/// Declares the tags of the cone with a cap, the crush curve, and the rate dependence.
 template <class M>
 void addConeTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
@@ -119,7 +122,7 @@ void addConeTags(input::Schema<M>& schema) {
   schema.ignored("gruneisen_parameter", "as in Uintah, it has no effect").check(check<M>);
 }
 
-/// Tags of the curved limit surface, nonlinear elasticity and the fluid.
+/// Declares the tags of the curved limit surface, nonlinear elasticity and the fluid.
 template <class M>
 void addSoilTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
@@ -147,7 +150,7 @@ void addSoilTags(input::Schema<M>& schema) {
                input::nonNegative());
 }
 
-/// Tags of the cap that is tangent to the cone, which only the model type `Arenisca` has.
+/// Declares the tags of the cap that is tangent to the cone, for the model type `Arenisca` only.
 template <class M>
 void addTangentCapTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
@@ -164,7 +167,7 @@ void addTangentCapTags(input::Schema<M>& schema) {
     schema.ignored(unused, "from an older Uintah, in which the other tags have the same meaning");
 }
 
-/// Lode's angle, which only Arenisca4 has.
+/// Declares the tags of Lode's angle, for Arenisca4 only.
 template <class M>
 void addLodeTags(input::Schema<M>& schema) {
   schema

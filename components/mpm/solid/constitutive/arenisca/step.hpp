@@ -6,20 +6,20 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// The state that a step changes, in axes that rotate with the material.
+/// The state that changes in a step, in axes that rotate with the material.
 struct Point {
-  Matrix3 stress;         ///< quasistatic, Pa
-  Matrix3 plasticStrain;  ///< 1
-  double cap;             ///< X, end of the cap, Pa
-  double zeta;            ///< trace of the stress in the fluid, Pa
+  Matrix3 stress;         ///< quasistatic stress [Pa]
+  Matrix3 plasticStrain;  ///< plastic strain [1]
+  double cap;             ///< X, end of the cap [Pa]
+  double zeta;            ///< zeta, trace of the stress in the fluid [Pa]
 
   Moduli moduli(const Constants& c) const { return arenisca::moduli(c, stress.trace(), plasticStrain.trace()); }
 };
 
 /// One substep, with the moduli at its start: elastic, or with a return to a yield surface that moves with the
-/// volumetric plastic strain. How far it moves is found by bisection on the share of the plastic strain of the return
-/// to the surface at rest, until the strain that moved the surface is that of the return. Homel, Guilkey & Brannon,
-/// Comput. Mech. 56 (2015) 565.
+/// volumetric plastic strain. Bisection finds the strain that moves the surface, as a fraction of the plastic strain of
+/// a return to the fixed surface: it equals the plastic strain of the return to the moved surface. Homel, Guilkey &
+/// Brannon, Comput. Mech. 56 (2015) 565.
 class Substep {
  public:
   Substep(const Constants& c, const Point& start, const Matrix3& strain)
@@ -52,7 +52,7 @@ class Substep {
   };
 
   bool contains(const YieldSurface& surface) const { return surface.contains(trial_.i1, trial_.rootJ2, trial_.theta); }
-  /// At most 0: the fluid carries no tension.
+  /// Zeta after a volumetric strain, at most 0: the fluid bears no tension.
   double zetaAfter(double volume) const { return std::min(start_.zeta + stiffness_ * volume, 0.0); }
   YieldSurface surfaceAfter(double volume) const { return {c_, capEnd(c_, start_volume_ + volume), zetaAfter(volume)}; }
   bool moves(const Return& atRest) const {
@@ -85,8 +85,8 @@ class Substep {
     return best;
   }
 
-  /// The result of `consistent`: by the Illinois variant of false position if both ends are known, and by bisection if
-  /// the surface at the upper end is beyond the return.
+  /// Finds the result of `consistent` by the Illinois variant of false position if both ends are known, and by
+  /// bisection if the surface at the upper end is beyond the return.
   Return falsePosition(const Return& atRest) const {
     const double whole = std::abs(atRest.plasticStrain.trace());
     Return best = atRest;
@@ -115,7 +115,7 @@ class Substep {
     double at, excess;
     bool isKnown;
   };
-  /// The return to a moved surface; none if the trial is inside, or on the other side of it.
+  /// The return to a moved surface; none if the trial point is inside the surface, or on the other side of it.
   std::optional<Return> returnedAhead(const YieldSurface& surface, const Return& atRest) const {
     if (contains(surface)) return std::nullopt;
     const Return next = returned(surface);
@@ -131,12 +131,12 @@ class Substep {
   Matrix3 trial_stress_;
   Invariants trial_;
   double start_volume_;  ///< volumetric plastic strain
-  double stiffness_;     ///< stiffness of the fluid, Pa
+  double stiffness_;     ///< stiffness of the fluid [Pa]
 };
 
-/// Number of substeps of a step that leaves the yield surface with a tangent cap: `mostSubsteps` per 0.1 % of strain,
-/// or per stress increment of the length of the surface, whichever gives more. A step that stays within is not
-/// divided.
+/// Number of substeps for a step that leaves the yield surface with a tangent cap: `mostSubsteps` for every 0.1 % of
+/// strain, or for every stress increment of the length of the surface, whichever gives more substeps. A step that stays
+/// inside is not divided.
 inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
   const Matrix3 change = Moduli{c.b0, c.g0}.stress(strain);
   const Invariants trial(start.stress + change);
@@ -147,7 +147,7 @@ inline int substepsOfTangentCap(const Constants& c, const Point& start, const Ma
   return int(std::ceil(std::clamp(c.mostSubsteps * (std::floor(change.norm() / size) + 1), 1.0, most)));
 }
 
-/// Number of substeps: more than one if the bulk modulus changes by more than its value, or the stress by more than
+/// Number of substeps; more than one if the bulk modulus changes by more than its value, or the stress by more than
 /// 1/`sharpness` of the size of the yield surface.
 inline int substeps(const Constants& c, const Point& start, const Matrix3& strain, double sharpness) {
   if (c.hasTangentCap()) return substepsOfTangentCap(c, start, strain);

@@ -7,12 +7,12 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// A Lode angle, rad: pi/6 in triaxial compression, -pi/6 in extension; sin 3 theta = -J3/2 (3/J2)^(3/2).
+/// A Lode angle [rad]: pi/6 in triaxial compression, -pi/6 in extension; sin 3 theta = -J3/2 (3/J2)^(3/2).
 using LodeAngle = double;
 
-/// sqrt J2 <= Gamma(theta) F_f(I) f_c(I) with I = I1 - zeta between `end` and the vertex: a limit of strength
-/// F_f = a1 - a3 exp(a2 I) - a4 I, closed by an elliptic cap f_c; Gamma is that of Gudehus, of Mohr and Coulomb, or 1.
-/// Or sqrt J2 <= F_f(I) closed by an ellipse that touches it.
+/// The yield surface sqrt J2 <= Gamma(theta) F_f(I) f_c(I) with I = I1 - zeta between `end` and the vertex: a strength
+/// limit F_f = a1 - a3 exp(a2 I) - a4 I, closed by an elliptic cap f_c; Gamma is that of Gudehus, that of Mohr and
+/// Coulomb, or 1. Alternatively, sqrt J2 <= F_f(I) closed by a tangent ellipse.
 class YieldSurface {
  public:
   YieldSurface(const Constants& c, double end, double zeta)
@@ -34,19 +34,19 @@ class YieldSurface {
   double zeta() const { return zeta_; }
   double end() const { return end_; }
   double vertex() const { return vertex_; }
-  /// I where the cap begins, Pa.
+  /// I at the start of the cap [Pa].
   double branch() const { return branch_; }
   bool isRound() const { return lode_type_ == 0; }
-  /// Semi-axes of a tangent ellipse along I1 and sqrt J2, Pa; 0 where there is none.
+  /// Semi-axes of a tangent ellipse along I1 and sqrt J2 [Pa]; 0 if there is none.
   double capLength() const { return length_; }
   double capHeight() const { return height_; }
 
-  /// F_f f_c at I, Pa.
+  /// The radius F_f f_c at I [Pa].
   double radius(double i) const {
     if (length_ > 0 && i < branch_) return height_ * std::sqrt(std::max(0.0, ellipseSquare(i)));
     return limit(i) * std::sqrt(std::max(0.0, capSquare(i)));
   }
-  /// Its derivative; infinite at the end of the cap.
+  /// The derivative of the radius with respect to I; infinite at the end of the cap.
   double slope(double i) const {
     const double limitSlope = -a3_ * a2_ * std::exp(a2_ * i) - a4_;
     if (i >= branch_) return limitSlope;
@@ -59,7 +59,7 @@ class YieldSurface {
     const double factor = std::sqrt(square);
     return limitSlope * factor + limit(i) * ((branch_ - i) / length / length) / factor;
   }
-  /// Gamma
+  /// The factor Gamma.
   double lodeFactor(LodeAngle theta) const {
     if (lode_type_ == 1) {
       const double s = std::sin(3 * theta);
@@ -101,7 +101,7 @@ class YieldSurface {
 
   double zeta_, end_, vertex_, branch_;
   double a1_ = 0, a2_ = 0, a3_ = 0, a4_ = 0;
-  double length_ = 0, height_ = 0;  ///< semi-axes of a tangent ellipse along I1 and sqrt J2, Pa; 0: there is none
+  double length_ = 0, height_ = 0;  ///< semi-axes of a tangent ellipse along I1 and sqrt J2 [Pa]; 0 if there is none
   int lode_type_;
   double lode_ratio_;
 };

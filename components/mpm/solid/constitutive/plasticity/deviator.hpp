@@ -14,7 +14,7 @@
 
 namespace tushar::mpm::solid {
 
-/// ds/dt = 2 G dev D without yielding.
+/// Hypoelastic deviator: ds/dt = 2 G dev D without yielding.
 struct HypoelasticDeviator {
   static constexpr std::string_view name = "hypoElastic";
 
@@ -26,23 +26,23 @@ struct HypoelasticDeviator {
 };
 
 /// Parallel Maxwell elements, ds_j/dt = 2 mu_j (dev D - D_p) - s_j/tau_j, s = sum_j s_j, with the plastic strain rate
-/// D_p common to all. In a step s is that of an elastic body with the shear modulus sum_j gained_j mu_j and the
-/// deviator sum_j kept_j s_j at the start: see MaxwellStep. Uintah's steps are explicit and return with the
+/// D_p common to all. In a step, s is the deviator of an elastic body with the shear modulus sum_j gained_j mu_j and
+/// the deviator sum_j kept_j s_j at the start: see MaxwellStep. Uintah's steps are explicit and return with the
 /// <shear_modulus>, which should be sum_j mu_j.
 struct MaxwellDeviator {
   static constexpr std::string_view name = "hypoViscoElastic";
   static constexpr int greatestCount = 5;
 
   int count = 0;
-  std::array<double, greatestCount> modulus{};  ///< mu_j, Pa
-  std::array<double, greatestCount> time{};     ///< tau_j, s
+  std::array<double, greatestCount> modulus{};  ///< modulus mu_j [Pa]
+  std::array<double, greatestCount> time{};     ///< time tau_j [s]
 
   static const input::Schema<MaxwellDeviator>& schema() {
     static const input::Schema<MaxwellDeviator> schema = makeSchema();
     return schema;
   }
   MaxwellStep step(int j, double timeStep) const { return MaxwellStep(timeStep / time[j]); }
-  /// Shear modulus for a step, Pa; if the step is 0, for a fast wave.
+  /// Shear modulus for a step [Pa]; for a step of 0, that of a fast wave.
   double modulusIn(double timeStep) const {
     double sum = 0;
     for (int j = 0; j < count; ++j) sum += step(j, timeStep).gained * modulus[j];
@@ -66,7 +66,7 @@ struct MaxwellDeviator {
     const std::vector<double> moduli = numbersOf("mu", element, diagnostics);
     const std::vector<double> times = numbersOf("tau", element, diagnostics);
     if (moduli.size() != times.size())
-      return diagnostics.error(element, "<mu> and <tau> must be lists of the same length");
+      return diagnostics.error(element, "<mu> and <tau> are lists of different lengths");
     if (moduli.size() > greatestCount)
       return diagnostics.error(element, "at most " + std::to_string(greatestCount) + " elements are available");
     read.count = int(moduli.size());
@@ -86,12 +86,12 @@ struct MaxwellDeviator {
       return {};
     }
     for (const double number : *read.value)
-      if (number <= 0) diagnostics.error(*given, "all must be positive");
+      if (number <= 0) diagnostics.error(*given, "contains a number that is not positive");
     return *read.value;
   }
 };
 
-/// The first is the default, as in Uintah.
+/// The models of the deviator; the first is the default, as in Uintah.
 using DeviatorModel = std::variant<HypoelasticDeviator, MaxwellDeviator>;
 
 }  // namespace tushar::mpm::solid

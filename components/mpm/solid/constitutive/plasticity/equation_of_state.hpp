@@ -10,18 +10,18 @@ namespace tushar::mpm::solid {
 
 /// Arguments of an equation of state.
 struct VolumeState {
-  double oldMeanStress;       ///< Pa, tension positive
-  double dilatation;          ///< tr D dt, 1
-  double volume;              ///< J at the end of the step, 1
-  double temperature;         ///< K
-  double initialTemperature;  ///< K
-  double energy;              ///< gained since the start, J/kg
-  double bulkModulus;         ///< Pa
-  double density;             ///< rho_0, kg/m^3
-  double specificHeat;        ///< J/(kg K)
+  double oldMeanStress;       ///< mean stress at the start of the step [Pa], tension positive
+  double dilatation;          ///< dilatation in the step, tr D dt [1]
+  double volume;              ///< J at the end of the step [1]
+  double temperature;         ///< temperature [K]
+  double initialTemperature;  ///< initial temperature [K]
+  double energy;              ///< energy gained since the start [J/kg]
+  double bulkModulus;         ///< bulk modulus [Pa]
+  double density;             ///< density rho_0 [kg/m^3]
+  double specificHeat;        ///< specific heat [J/(kg K)]
 };
 
-/// p_new = p + K tr D dt, tension positive.
+/// Hypoelastic mean stress: p_new = p + K tr D dt, tension positive.
 struct HypoelasticVolume {
   static constexpr std::string_view name = "default_hypo";
 
@@ -30,11 +30,11 @@ struct HypoelasticVolume {
     return schema;
   }
   double meanStress(const VolumeState& s) const { return s.oldMeanStress + s.bulkModulus * s.dilatation; }
-  /// Temperature change due to the volume change of the step, K.
+  /// Temperature change due to the volume change in the step [K].
   double heating(const VolumeState&) const { return 0; }
 };
 
-/// p = K/2 (J - 1/J), tension positive.
+/// Hyperelastic mean stress: p = K/2 (J - 1/J), tension positive.
 struct HyperelasticVolume {
   static constexpr std::string_view name = "default_hyper";
 
@@ -46,15 +46,15 @@ struct HyperelasticVolume {
   double heating(const VolumeState&) const { return 0; }
 };
 
-/// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 - J: the shock
-/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3. Uintah has
-/// no such model today.
+/// The pressure p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 -
+/// J, of a material whose shock velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena
+/// (1999), chapter 3. Uintah has no such model today.
 struct MieGruneisen {
   static constexpr std::string_view name = "mie_gruneisen_temperature";
 
-  double soundSpeed = 0;  ///< C_0, m/s
-  double gruneisen = 0;   ///< Gamma_0, 1
-  double slope = 0;       ///< S_alpha, 1
+  double soundSpeed = 0;  ///< speed of sound C_0 [m/s]
+  double gruneisen = 0;   ///< Gamma_0 [1]
+  double slope = 0;       ///< slope S_alpha [1]
 
   static const input::Schema<MieGruneisen>& schema() {
     static const input::Schema<MieGruneisen> schema =
@@ -75,15 +75,15 @@ struct MieGruneisen {
   double heating(const VolumeState&) const { return 0; }
 };
 
-/// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e under
-/// pressure, rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The
+/// The pressure p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e
+/// in compression, rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The
 /// temperature changes by dT = -T Gamma_0 J tr D dt. Uintah's `mie_gruneisen`.
 struct MieGruneisenEnergy {
   static constexpr std::string_view name = "mie_gruneisen";
 
-  double soundSpeed = 0;          ///< C_0, m/s
-  double gruneisen = 0;           ///< Gamma_0, 1
-  double s1 = 0, s2 = 0, s3 = 0;  ///< 1
+  double soundSpeed = 0;          ///< speed of sound C_0 [m/s]
+  double gruneisen = 0;           ///< Gamma_0 [1]
+  double s1 = 0, s2 = 0, s3 = 0;  ///< s1, s2 and s3 [1]
 
   static const input::Schema<MieGruneisenEnergy>& schema() {
     using Self = MieGruneisenEnergy;
@@ -111,7 +111,7 @@ struct MieGruneisenEnergy {
   double heating(const VolumeState& s) const { return -s.temperature * gruneisen * s.volume * s.dilatation; }
 };
 
-/// The first is the default, as in Uintah.
+/// The equations of state; the first is the default, as in Uintah.
 using EquationOfState = std::variant<HyperelasticVolume, HypoelasticVolume, MieGruneisen, MieGruneisenEnergy>;
 
 }  // namespace tushar::mpm::solid

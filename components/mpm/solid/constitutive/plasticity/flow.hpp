@@ -14,13 +14,13 @@
 
 namespace tushar::mpm::solid {
 
-/// sigma_y = sigma_Y + K e_p
+/// Linear isotropic hardening: sigma_y = sigma_Y + K e_p.
 struct IsotropicHardening {
   using Capabilities = CapabilityList<capability::Hardening>;
   static constexpr std::string_view name = "isotropic_hardening";
 
-  double yieldStress = 0;  ///< sigma_Y, Pa
-  double modulus = 0;      ///< K, Pa
+  double yieldStress = 0;  ///< sigma_Y [Pa]
+  double modulus = 0;      ///< modulus K [Pa]
 
   static const input::Schema<IsotropicHardening>& schema() {
     static const input::Schema<IsotropicHardening> schema =
@@ -31,23 +31,23 @@ struct IsotropicHardening {
     return schema;
   }
   double flowStress(const FlowState& state) const { return yieldStress + modulus * state.plasticStrain; }
-  /// d sigma_y / d e_p
+  /// The slope d sigma_y / d e_p.
   double hardening(const FlowState&) const { return modulus; }
 };
 static_assert(FlowRule<IsotropicHardening>);
 
-/// sigma_y = (A + B e_p^n) (1 + C ln e*) (1 - T*^m), e* = rate / epdot_0, T* = (T - T_r) / (T_m - T_r): Johnson & Cook,
-/// Proc. 7th Int. Symp. on Ballistics (1983) 541. Below epdot_0 the factor of the rate is (1 + e*)^C, below T_r that of
-/// the temperature 1 - T*, above T_m nothing, as in Uintah.
+/// The flow stress sigma_y = (A + B e_p^n) (1 + C ln e*) (1 - T*^m), e* = rate / epdot_0, T* = (T - T_r) / (T_m - T_r):
+/// Johnson & Cook, Proc. 7th Int. Symp. on Ballistics (1983) 541. As in Uintah, the rate factor is (1 + e*)^C below
+/// epdot_0, the temperature factor is 1 - T* below T_r, and 0 above T_m.
 struct JohnsonCook {
   using Capabilities = CapabilityList<capability::Hardening>;
   static constexpr std::string_view name = "johnson_cook";
 
-  double a = 0, b = 0;            ///< Pa
-  double c = 0, n = 0, m = 0;     ///< 1
-  double referenceRate = 1;       ///< epdot_0, 1/s
-  double roomTemperature = 298;   ///< T_r, K
-  double meltTemperature = 1793;  ///< T_m, K
+  double a = 0, b = 0;            ///< a and b [Pa]
+  double c = 0, n = 0, m = 0;     ///< c, n and m [1]
+  double referenceRate = 1;       ///< epdot_0 [1/s]
+  double roomTemperature = 298;   ///< room temperature T_r [K]
+  double meltTemperature = 1793;  ///< melting temperature T_m [K]
 
   static const input::Schema<JohnsonCook>& schema() {
     static const input::Schema<JohnsonCook> schema =
@@ -63,7 +63,7 @@ struct JohnsonCook {
                    input::positive())
             .check([](const JohnsonCook& read, const input::Element& element, input::Diagnostics& diagnostics) {
               if (read.meltTemperature <= read.roomTemperature)
-                diagnostics.error(element, "T_m must be greater than T_r");
+                diagnostics.error(element, "T_m is not greater than T_r");
             });
     return schema;
   }
@@ -87,17 +87,17 @@ struct JohnsonCook {
 };
 static_assert(FlowRule<JohnsonCook>);
 
-/// sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln rate, beta
-/// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. As in Uintah the rate is that of the plastic strain,
-/// and at least 1e-8/s.
+/// The flow stress sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln
+/// rate, beta likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. As in Uintah, the rate is that of the
+/// plastic strain, and at least 1e-8/s.
 struct ZerilliArmstrong {
   using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "zerilli_armstrong";
 
-  double c0 = 0, b = 0, b0 = 0, k = 0;  ///< Pa
-  double n = 0;                         ///< 1
-  double alpha0 = 0, alpha1 = 0;        ///< 1/K
-  double beta0 = 0, beta1 = 0;          ///< 1/K
+  double c0 = 0, b = 0, b0 = 0, k = 0;  ///< c0, b, b0 and k [Pa]
+  double n = 0;                         ///< n [1]
+  double alpha0 = 0, alpha1 = 0;        ///< alpha0 and alpha1 [1/K]
+  double beta0 = 0, beta1 = 0;          ///< beta0 and beta1 [1/K]
 
   static const input::Schema<ZerilliArmstrong>& schema() {
     using Self = ZerilliArmstrong;
@@ -127,7 +127,7 @@ struct ZerilliArmstrong {
   }
 
  private:
-  /// c_0, or Hall and Petch's sigma_g + k_H l^(-1/2) of grains of size l.
+  /// Reads c_0, or Hall and Petch's sigma_g + k_H l^(-1/2) for grains of size l.
   static void readConstantPart(ZerilliArmstrong& read, const input::Element& element, input::Diagnostics& diagnostics) {
     std::array<double, 4> values{};
     for (std::size_t k = 0; const char* name : {"c_0", "sigma_g", "k_H", "sqrt_l_inv"}) {
@@ -139,7 +139,7 @@ struct ZerilliArmstrong {
     if (!element.child("c_0") && !element.child("sigma_g"))
       diagnostics.error(element, "missing tag <c_0> in <flow_model> (the constant part)");
     read.c0 = values[0] + values[1] + values[2] * values[3];
-    if (read.c0 < 0) diagnostics.error(element, "c_0 must be at least 0 Pa");
+    if (read.c0 < 0) diagnostics.error(element, "c_0 is below 0 Pa");
   }
   static double fading(double byTemperature, double byRate, const FlowState& state) {
     const double logarithm = std::log(std::max(state.plasticStrainRate, 1e-8));
@@ -151,7 +151,7 @@ static_assert(FlowRule<ZerilliArmstrong>);
 using FlowModel = std::variant<IsotropicHardening, JohnsonCook, MechanicalThreshold, PrestonTonksWallace,
                                SteinbergCochranGuinan, ZerilliArmstrong>;
 
-/// d sigma_y / d e_p of a flow model at a constant rate, Pa.
+/// The slope d sigma_y / d e_p of a flow model at a constant rate [Pa].
 template <FlowRule Flow>
 double hardeningAtRate(const Flow& flow, const FlowState& state) {
   if constexpr (providesCapability<Flow, capability::Hardening>) {
@@ -167,16 +167,16 @@ double hardeningAtRate(const Flow& flow, const FlowState& state) {
   }
 }
 
-/// A radial return to the yield surface of a flow model, in a step of `timeStep` s.
+/// A radial return to the yield surface of a flow model, in a step of length `timeStep` [s].
 template <FlowRule Flow>
 class RadialReturn {
  public:
   RadialReturn(const Flow& flow, const FlowState& start, double timeStep)
       : flow_(flow), start_(start), time_step_(timeStep) {}
 
-  /// Amount by which the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p =
-  /// (2/3)^(1/2) q/(2 G) more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational
-  /// Inelasticity (1998), box 3.1.
+  /// Amount q by which the return reduces the trial stress s [Pa]: the root of |s| - q = (2/3)^(1/2) sigma_y, where e_p
+  /// exceeds its initial value by (2/3)^(1/2) q/(2 G); by Newton's iteration between bounds. Simo & Hughes,
+  /// Computational Inelasticity (1998), box 3.1.
   double excess(double trialSize) const {
     double low = 0, high = trialSize - root_ * flow_.flowStress(start_), q = high;
     if (high <= 0) return 0;
@@ -190,14 +190,14 @@ class RadialReturn {
     }
     return q;
   }
-  /// State at the end of a step whose return shortens the trial stress by q, Pa.
+  /// State at the end of a step whose return shortens the trial stress by q [Pa].
   FlowState after(double q) const {
     FlowState state = start_;
     state.plasticStrain += perStress() * q;
     state.plasticStrainRate = perStress() * q / time_step_;
     return state;
   }
-  /// d sigma_y / d e_p, Pa, with the plastic strain rate of the step a function of e_p.
+  /// The slope d sigma_y / d e_p [Pa], where the plastic strain rate of the step is a function of e_p.
   double hardening(const FlowState& state) const {
     if constexpr (providesCapability<Flow, capability::Hardening>)
       if (!dependsOnPlasticRate()) return flow_.hardening(state);
@@ -210,7 +210,7 @@ class RadialReturn {
     };
     return (at(h) - at(-h)) / (2 * h);
   }
-  /// Plastic strain per q, (2/3)^(1/2) / (2 G), 1/Pa.
+  /// Plastic strain per q, (2/3)^(1/2) / (2 G) [1/Pa].
   double perStress() const { return root_ / (2 * start_.shearModulus); }
 
  private:

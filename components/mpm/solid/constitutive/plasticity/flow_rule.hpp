@@ -11,18 +11,18 @@ namespace tushar::mpm::solid {
 
 /// The state of a material point on which its yield stress depends.
 struct FlowState {
-  double plasticStrain;          ///< equivalent plastic strain, 1
-  double strainRate;             ///< equivalent strain rate, 1/s
-  double temperature;            ///< K
-  double shearModulus;           ///< Pa
-  double density = 0;            ///< kg/m^3
-  double meltTemperature = 0;    ///< K
-  double plasticStrainRate = 0;  ///< mean over the step, 1/s
+  double plasticStrain;          ///< equivalent plastic strain [1]
+  double strainRate;             ///< equivalent strain rate [1/s]
+  double temperature;            ///< temperature [K]
+  double shearModulus;           ///< shear modulus [Pa]
+  double density = 0;            ///< density [kg/m^3]
+  double meltTemperature = 0;    ///< melting temperature [K]
+  double plasticStrainRate = 0;  ///< plastic strain rate, averaged over the step [1/s]
 };
 
 namespace capability {
 
-/// d sigma_y / d e_p at a constant rate, Pa; without it finite differences are used.
+/// The slope d sigma_y / d e_p at a constant rate [Pa]; without it, finite differences are used.
 struct Hardening {
   struct Name {
     int hardening;
@@ -41,7 +41,7 @@ struct Hardening {
 };
 
 /// Whether the yield stress depends on FlowState::plasticStrainRate, which then changes with the plastic strain of the
-/// step. Offer it beside Hardening where the constants of the model decide.
+/// step. Offer it in addition to Hardening if the constants of the model decide whether it does.
 struct PlasticRate {
   struct Name {
     int dependsOnPlasticRate;
@@ -59,12 +59,12 @@ struct PlasticRate {
   }
 };
 
-/// Every capability that a flow model can name.
+/// All capabilities that a flow model can name.
 using OfFlowModels = CapabilityList<Hardening, PlasticRate>;
 
 }  // namespace capability
 
-/// True; otherwise compilation stops with a message that says what is missing in Flow.
+/// Always true; otherwise compilation stops with a message that says what is missing in Flow.
 template <class Flow>
 consteval bool isFlowRule() {
   static_assert(
@@ -86,8 +86,8 @@ consteval bool isFlowRule() {
   return true;
 }
 
-/// A yield stress, flowStress, Pa. A flow model is one struct and one line in FlowModel of flow.hpp. Use the concept to
-/// assert: a type that is no flow model stops compilation with a sentence.
+/// A yield stress as a function of the state: flowStress [Pa]. A flow model is one struct and one line in FlowModel of
+/// flow.hpp. Use the concept in assertions: a type that is not a flow model stops compilation with a message.
 template <class Flow>
 concept FlowRule = isFlowRule<Flow>();
 

@@ -11,7 +11,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Von Mises: q = sigma_y.
+/// The von Mises yield condition, q = sigma_y.
 struct VonMisesYield {
   static constexpr std::string_view name = "vonMises";
   static const input::Schema<VonMisesYield>& schema() {
@@ -27,8 +27,8 @@ struct VonMisesYield {
 struct GursonYield {
   static constexpr std::string_view name = "gurson";
   double q1 = 1.5, q2 = 1, q3 = 2.25;
-  double acceleration = 4;         ///< k, 1
-  double criticalPorosity = 0.05;  ///< f_c, 1
+  double acceleration = 4;         ///< acceleration k [1]
+  double criticalPorosity = 0.05;  ///< critical porosity f_c [1]
 
   static const input::Schema<GursonYield>& schema() {
     static const input::Schema<GursonYield> schema =
@@ -37,26 +37,27 @@ struct GursonYield {
             .required("q2", &GursonYield::q2, "1", "factor of the mean stress", input::positive())
             .required("q3", &GursonYield::q3, "1", "factor of the square of the porosity, usually q1^2",
                       input::nonNegative())
-            .required("k", &GursonYield::acceleration, "1", "factor on the porosity above f_c, where pores coalesce",
+            .required("k", &GursonYield::acceleration, "1", "factor of the porosity above f_c, where pores coalesce",
                       input::positive())
             .required("f_c", &GursonYield::criticalPorosity, "1", "porosity at which pores begin to coalesce",
                       input::between(0, 1));
     return schema;
   }
-  /// f*, 1; at most greatest(), because beyond it the formula would give more strength to more pores.
+  /// The effective porosity f* [1]; at most greatest(), because beyond it the formula would give more strength to more
+  /// pores.
   double effective(double f) const {
     return std::min(f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f, greatest());
   }
-  /// The smallest root of 1 + q3 f*² = 2 q1 f*, at which no strength is left: 1/q1 if q3 = q1²; without a root, the
-  /// position of the minimum.
+  /// The largest f*, at which no strength is left: the smallest root of 1 + q3 f*² = 2 q1 f*, which is 1/q1 if q3 =
+  /// q1², or, if there is no root, the f* at which the strength is least.
   double greatest() const { return q3 > q1 * q1 ? q1 / q3 : 1 / (q1 + std::sqrt(q1 * q1 - q3)); }
-  /// (q/sigma_y)² on the yield surface as a function of p / sigma_y; negative where it bears no q.
+  /// (q/sigma_y)² on the yield surface as a function of p / sigma_y; negative where the surface supports no q.
   double square(double p, double f) const {
     const double pores = effective(f);
     return 1 + q3 * pores * pores - 2 * q1 * pores * std::cosh(argument(p));
   }
   double strength(double p, double f) const { return std::sqrt(std::max(square(p, f), 0.0)); }
-  /// sigma_y d Phi/dp as a function of p / sigma_y.
+  /// The derivative sigma_y d Phi/dp as a function of p / sigma_y.
   double dilatancy(double p, double f) const { return 3 * q1 * q2 * effective(f) * std::sinh(argument(p)); }
 
  private:
@@ -68,20 +69,21 @@ struct GursonYield {
 inline constexpr double greatestPorosity = 0.999;
 
 /// Return to Gurson's surface with associated flow: Aravas, Int. J. Numer. Meth. Engng 24 (1987) 1395. `yieldStress(x)`
-/// is sigma_y after a plastic strain x of the metal, Pa; `meanStress(t)` after a plastic dilatation t, Pa.
+/// is sigma_y after a plastic strain x of the metal [Pa]; `meanStress(t)` is the mean stress after a plastic dilatation
+/// t [Pa].
 template <class YieldStress, class MeanStress>
 class GursonReturn {
  public:
   /// The state of the point after the step.
   struct Result {
-    double plasticStrain = 0;  ///< increment for the metal, 1
-    double dilatation = 0;     ///< plastic increment, 1
-    double equivalent = 0;     ///< q at the end, Pa
-    double mean = 0;           ///< p at the end, Pa
-    double work = 0;           ///< plastic, J/m^3
+    double plasticStrain = 0;  ///< increment of the plastic strain of the metal [1]
+    double dilatation = 0;     ///< increment of the plastic dilatation [1]
+    double equivalent = 0;     ///< q at the end of the step [Pa]
+    double mean = 0;           ///< p at the end of the step [Pa]
+    double work = 0;           ///< plastic work [J/m^3]
   };
 
-  /// `nucleation` is the porosity that nucleates per plastic strain, 1; without a value the pores do not change.
+  /// `nucleation` is the porosity that nucleates per plastic strain [1]; without a value, the pores do not change.
   GursonReturn(const GursonYield& surface, YieldStress yieldStress, MeanStress meanStress, double shearModulus,
                double porosity, std::optional<double> nucleation)
       : surface_(surface),
@@ -91,7 +93,7 @@ class GursonReturn {
         porosity_(porosity),
         nucleation_(nucleation) {}
 
-  /// For the equivalent trial stress, Pa.
+  /// Performs the return for the equivalent trial stress [Pa].
   Result operator()(double trial) const {
     const double mean = mean_stress_(0.0), yield = yield_stress_(0.0);
     const double square = surface_.square(mean / yield, porosity_);
@@ -100,8 +102,8 @@ class GursonReturn {
     if (residual(0) == 0) return at(trial, 0);
     return at(trial, rootBetween(residual, 0.0, farthest(mean)));
   }
-  /// f after additional plastic dilatation and strain: pores grow with the dilatation, and new pores open with the
-  /// strain in tension.
+  /// The porosity f after additional plastic dilatation and strain: pores grow with the dilatation, and new pores open
+  /// with the strain in tension.
   double porosity(double dilatation, double strain) const {
     if (!nucleation_) return porosity_;
     return std::clamp(1 - (1 - porosity_) * std::exp(-dilatation) + *nucleation_ * strain, 0.0, greatestPorosity);
@@ -115,8 +117,8 @@ class GursonReturn {
     while (end > least && end < 1 && (mean_stress_(end) > 0) == (mean > 0)) end = std::max(2 * end, least);
     return end;
   }
-  /// The point on the surface after a plastic dilatation: the strain of the metal follows from the plastic work
-  /// (1 - f) sigma_y x = q z + p t, z being the plastic strain of the deviator.
+  /// The point on the surface after a plastic dilatation: the strain of the metal follows from the plastic work (1 - f)
+  /// sigma_y x = q z + p t, z being the plastic strain of the deviator.
   Result at(double trial, double dilatation) const {
     const double mean = mean_stress_(dilatation);
     const auto after = [&](double strain) {
@@ -131,8 +133,8 @@ class GursonReturn {
     while (end < 1e3 && after(end).second < 0) end *= 2;
     return after(rootBetween([&](double strain) { return after(strain).second; }, 0.0, end)).first;
   }
-  /// 0 if the dilatation t and the plastic strain z of the deviator are related by the normal of the surface, 2 t
-  /// q/sigma_y = z sigma_y dPhi/dp, or where the surface ends without any deviator.
+  /// The residual of the flow rule: 0 if the dilatation t and the plastic strain z of the deviator are related by the
+  /// normal of the surface, 2 t q/sigma_y = z sigma_y dPhi/dp, or where the surface ends without any deviator.
   double associated(const Result& result, double trial) const {
     const double yield = yield_stress_(result.plasticStrain), f = porosity(result.dilatation, result.plasticStrain);
     const double p = result.mean / yield, strain = (trial - result.equivalent) / (3 * shear_modulus_);

@@ -19,18 +19,18 @@ struct MechanicalThreshold {
   using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "mts_model";
 
-  double athermal = 0;              ///< sigma_a, Pa
-  double shearModulus = 0;          ///< mu_0, Pa
-  double boltzmann = 0;             ///< k/b^3, Pa/K
-  double energyI = 0, energyE = 0;  ///< g_0i, g_0e, 1
-  double rateI = 0, rateE = 0;      ///< r_0i, r_0e, 1/s
+  double athermal = 0;              ///< athermal stress sigma_a [Pa]
+  double shearModulus = 0;          ///< shear modulus mu_0 [Pa]
+  double boltzmann = 0;             ///< ratio k/b^3 [Pa/K]
+  double energyI = 0, energyE = 0;  ///< activation energies g_0i and g_0e [1]
+  double rateI = 0, rateE = 0;      ///< reference rates r_0i and r_0e [1/s]
   double pI = 0, qI = 0, pE = 0, qE = 0;
-  double sigmaI = 0;                      ///< Pa
-  double a0 = 0, a1 = 0, a2 = 0, a3 = 0;  ///< Pa, Pa, Pa s^(1/2), Pa/K
-  double alpha = 0;                       ///< 1
-  double rateSaturated = 0;               ///< r_es0, 1/s
-  double energySaturated = 0;             ///< g_0es, 1
-  double sigmaSaturated = 0;              ///< sigma_es0, Pa
+  double sigmaI = 0;                      ///< sigma_i [Pa]
+  double a0 = 0, a1 = 0, a2 = 0, a3 = 0;  ///< a0 and a1 [Pa], a2 [Pa s^(1/2)], a3 [Pa/K]
+  double alpha = 0;                       ///< alpha [1]
+  double rateSaturated = 0;               ///< reference rate of saturation r_es0 [1/s]
+  double energySaturated = 0;             ///< activation energy of saturation g_0es [1]
+  double sigmaSaturated = 0;              ///< sigma_es0 [Pa]
 
   static const input::Schema<MechanicalThreshold>& schema() {
     static const input::Schema<MechanicalThreshold> schema = makeSchema();
@@ -67,7 +67,7 @@ struct MechanicalThreshold {
     tags.required("a_0", &Self::a0, "Pa", "hardening at the start")
         .required("a_1", &Self::a1, "Pa", "growth of the hardening with the logarithm of the rate")
         .required("a_2", &Self::a2, "Pa s^(1/2)", "growth of the hardening with the square root of the rate")
-        .required("a_3", &Self::a3, "Pa/K", "fall of the hardening with the temperature")
+        .required("a_3", &Self::a3, "Pa/K", "decrease of the hardening with the temperature")
         .required("alpha", &Self::alpha, "1", "shape of the saturation of hardening", input::positive())
         .required("edot_es0", &Self::rateSaturated, "1/s", "reference rate of saturation", input::positive())
         .required("g_0es", &Self::energySaturated, "1", "activation energy of saturation", input::positive())
@@ -75,14 +75,14 @@ struct MechanicalThreshold {
         .ignored("theta_IV", "as in Uintah, hardening falls to 0 at saturation")
         .ignored("D", "it is part of the <shear_modulus_model>")
         .ignored("T_0", "it is part of the <shear_modulus_model>");
-    refuseTag(tags, "T_c", "there is one phase");
+    refuseTag(tags, "T_c", "there is only one phase");
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
       if (read.pI > 0 && !(read.energyI > 0 && read.rateI > 0 && read.qI > 0))
-        diagnostics.error(element, "g_0i, edot_0i and q_i must be greater than 0 if p_i is");
+        diagnostics.error(element, "p_i is greater than 0, but g_0i, edot_0i and q_i are not");
     });
     return tags;
   }
-  /// (1 - x^(1/q))^(1/p)
+  /// The ratio (1 - x^(1/q))^(1/p).
   static double share(double x, double p, double q) {
     const double left = 1 - std::pow(std::max(x, 0.0), 1 / q);
     return left > 0 ? std::pow(left, 1 / p) : 0.0;

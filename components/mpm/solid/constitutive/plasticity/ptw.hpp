@@ -10,16 +10,17 @@
 
 namespace tushar::mpm::solid {
 
-/// sigma_y = 2 G t, t = t_s + A ln(1 - (1 - exp(-B/A)) exp(-theta e_p / (A (exp(B/A) - 1)))), A = (s_0 - t_y)/p, B =
-/// t_s - t_y: Preston, Tonks & Wallace, J. Appl. Phys. 93 (2003) 211. With x = kappa T/T_m ln(gamma/r), r the rate of
-/// the plastic strain times the time in which a transverse wave crosses an atom, t_s = s_0 - (s_0 - s_inf) erf x and
-/// t_y likewise; above 1000/s at least t_s = s_0 (r/gamma)^beta and t_y = y_1 (r/gamma)^y_2, for strong shocks.
+/// The flow stress sigma_y = 2 G t, t = t_s + A ln(1 - (1 - exp(-B/A)) exp(-theta e_p / (A (exp(B/A) - 1)))), A = (s_0
+/// - t_y)/p, B = t_s - t_y: Preston, Tonks & Wallace, J. Appl. Phys. 93 (2003) 211. With x = kappa T/T_m ln(gamma/r),
+/// where r is the plastic strain rate times the time in which a transverse wave crosses an atom, t_s = s_0 - (s_0 -
+/// s_inf) erf x and t_y likewise; above 1000/s at least t_s = s_0 (r/gamma)^beta and t_y = y_1 (r/gamma)^y_2, for
+/// strong shocks.
 struct PrestonTonksWallace {
   using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "preston_tonks_wallace";
 
   double theta = 0, p = 0, s0 = 0, sInfinite = 0, kappa = 0, gamma = 0, y0 = 0, yInfinite = 0, y1 = 0, y2 = 0, beta = 0;
-  double atomicMass = 0;  ///< M, u
+  double atomicMass = 0;  ///< M, atomic mass [u]
 
   static const input::Schema<PrestonTonksWallace>& schema() {
     using Self = PrestonTonksWallace;
@@ -42,7 +43,7 @@ struct PrestonTonksWallace {
             .ignored("alpha", "it is part of the <shear_modulus_model>")
             .ignored("alphap", "it is part of the <shear_modulus_model>")
             .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
-              if (read.y0 >= read.s0) diagnostics.error(element, "y0 must be less than s0");
+              if (read.y0 >= read.s0) diagnostics.error(element, "y0 is not less than s0");
             });
     return schema;
   }
@@ -59,7 +60,7 @@ struct PrestonTonksWallace {
   }
 
  private:
-  /// 1/2 (4 pi rho / (3 M))^(1/3) (G/rho)^(1/2), 1/s
+  /// The frequency 1/2 (4 pi rho / (3 M))^(1/3) (G/rho)^(1/2) [1/s].
   double frequency(const FlowState& state) const {
     constexpr double atomicMassUnit = 1.66053906660e-27;
     const double atoms = state.density / (atomicMass * atomicMassUnit);

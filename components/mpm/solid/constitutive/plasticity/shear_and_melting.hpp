@@ -10,14 +10,14 @@ namespace tushar::mpm::solid {
 
 /// Arguments of shear and melting models.
 struct Compression {
-  double pressure;             ///< Pa
-  double ratio;                ///< density relative to that at the start, 1
-  double temperature;          ///< K
-  double density = 0;          ///< kg/m^3
-  double meltTemperature = 0;  ///< K; only for the shear modulus
+  double pressure;             ///< pressure [Pa]
+  double ratio;                ///< ratio of the density to the initial density [1]
+  double temperature;          ///< temperature [K]
+  double density = 0;          ///< density [kg/m^3]
+  double meltTemperature = 0;  ///< melting temperature [K]; only for the shear modulus
 };
 
-/// The <shear_modulus> of the constitutive model.
+/// A constant shear modulus, <shear_modulus> of the constitutive model.
 struct ConstantShear {
   static constexpr std::string_view name = "constant_shear";
   static const input::Schema<ConstantShear>& schema() {
@@ -28,13 +28,13 @@ struct ConstantShear {
   double modulus(const Compression&, double initial) const { return initial; }
 };
 
-/// G = mu_0 (1 + A p/eta^(1/3) - B (T - 300 K)), eta = rho/rho_0: Steinberg, Cochran & Guinan, J. Appl. Phys. 51 (1980)
-/// 1498, equation 1.
+/// The shear modulus G = mu_0 (1 + A p/eta^(1/3) - B (T - 300 K)), eta = rho/rho_0: Steinberg, Cochran & Guinan, J.
+/// Appl. Phys. 51 (1980) 1498, equation 1.
 struct ScgShear {
   static constexpr std::string_view name = "scg_shear";
-  double initial = 0;        ///< mu_0, Pa
-  double byPressure = 0;     ///< A, 1/Pa
-  double byTemperature = 0;  ///< B, 1/K
+  double initial = 0;        ///< initial value mu_0 [Pa]
+  double byPressure = 0;     ///< pressure coefficient A [1/Pa]
+  double byTemperature = 0;  ///< temperature coefficient B [1/K]
 
   static const input::Schema<ScgShear>& schema() {
     static const input::Schema<ScgShear> schema =
@@ -51,12 +51,12 @@ struct ScgShear {
   }
 };
 
-/// G = mu_0 - D / (exp(T_0/T) - 1): Varshni, Phys. Rev. B 2 (1970) 3952.
+/// The shear modulus G = mu_0 - D / (exp(T_0/T) - 1): Varshni, Phys. Rev. B 2 (1970) 3952.
 struct MtsShear {
   static constexpr std::string_view name = "mts_shear";
-  double initial = 0;      ///< mu_0, Pa
-  double fall = 0;         ///< D, Pa
-  double temperature = 0;  ///< T_0, K
+  double initial = 0;      ///< initial value mu_0 [Pa]
+  double fall = 0;         ///< coefficient D [Pa]
+  double temperature = 0;  ///< temperature T_0 [K]
 
   static const input::Schema<MtsShear>& schema() {
     static const input::Schema<MtsShear> schema =
@@ -64,7 +64,8 @@ struct MtsShear {
                                 "Varshni's shear modulus, which belongs to the mechanical threshold stress.")
             .required("mu_0", &MtsShear::initial, "Pa", "shear modulus at 0 K", input::positive())
             .required("D", &MtsShear::fall, "Pa", "scale of the decrease with the temperature", input::nonNegative())
-            .required("T_0", &MtsShear::temperature, "K", "temperature at which it begins to fall", input::positive());
+            .required("T_0", &MtsShear::temperature, "K", "temperature at which the shear modulus begins to decrease",
+                      input::positive());
     return schema;
   }
   double modulus(const Compression& c, double) const {
@@ -72,15 +73,15 @@ struct MtsShear {
   }
 };
 
-/// G = ((mu_0 + mu' p/eta^(1/3)) (1 - t) + rho k T / (C m)) / (1 + exp((t - 1) / (zeta (1 - t / (1 + zeta))))), t =
-/// T/T_m, eta = rho/rho_0, and 0 above t = 1 + zeta: Nadal & Le Poac, J. Appl. Phys. 93 (2003) 2472.
+/// The shear modulus G = ((mu_0 + mu' p/eta^(1/3)) (1 - t) + rho k T / (C m)) / (1 + exp((t - 1) / (zeta (1 - t / (1 +
+/// zeta))))), t = T/T_m, eta = rho/rho_0, and 0 above t = 1 + zeta: Nadal & Le Poac, J. Appl. Phys. 93 (2003) 2472.
 struct NpShear {
   static constexpr std::string_view name = "np_shear";
-  double initial = 0;     ///< mu_0, Pa
-  double zeta = 0;        ///< 1
-  double byPressure = 0;  ///< mu'/mu_0, 1/Pa
-  double lindemann = 0;   ///< C, 1
-  double atomicMass = 0;  ///< m, u
+  double initial = 0;     ///< initial value mu_0 [Pa]
+  double zeta = 0;        ///< zeta [1]
+  double byPressure = 0;  ///< mu'/mu_0 [1/Pa]
+  double lindemann = 0;   ///< Lindemann constant C [1]
+  double atomicMass = 0;  ///< atomic mass m [u]
 
   static const input::Schema<NpShear>& schema() {
     static const input::Schema<NpShear> schema =
@@ -106,7 +107,7 @@ struct NpShear {
 
 using ShearModel = std::variant<ConstantShear, MtsShear, NpShear, ScgShear>;
 
-/// The <melt_temp> of the material.
+/// A constant melting temperature, <melt_temp> of the material.
 struct ConstantMelting {
   static constexpr std::string_view name = "constant_Tm";
   static const input::Schema<ConstantMelting>& schema() {
@@ -116,19 +117,20 @@ struct ConstantMelting {
   double temperature(const Compression&, double initial) const { return initial; }
 };
 
-/// T_m = T_m0 exp(2 a (1 - 1/eta)) eta^(2 (Gamma_0 - a - 1/3)): Steinberg, Cochran & Guinan, equation 5.
+/// The melting temperature T_m = T_m0 exp(2 a (1 - 1/eta)) eta^(2 (Gamma_0 - a - 1/3)): Steinberg, Cochran & Guinan,
+/// equation 5.
 struct ScgMelting {
   static constexpr std::string_view name = "scg_Tm";
-  double initial = 0;    ///< T_m0, K
-  double gruneisen = 0;  ///< Gamma_0, 1
-  double a = 0;          ///< 1
+  double initial = 0;    ///< initial value T_m0 [K]
+  double gruneisen = 0;  ///< Gamma_0 [1]
+  double a = 0;          ///< a [1]
 
   static const input::Schema<ScgMelting>& schema() {
     static const input::Schema<ScgMelting> schema =
         input::Schema<ScgMelting>("melting_temp_model", "The Steinberg-Cochran-Guinan melting temperature.")
             .required("T_m0", &ScgMelting::initial, "K", "melting temperature without pressure", input::positive())
             .required("Gamma_0", &ScgMelting::gruneisen, "1", "Grüneisen parameter", input::nonNegative())
-            .required("a", &ScgMelting::a, "1", "fall of the Grüneisen parameter with the density",
+            .required("a", &ScgMelting::a, "1", "decrease of the Grüneisen parameter with the density",
                       input::nonNegative());
     return schema;
   }

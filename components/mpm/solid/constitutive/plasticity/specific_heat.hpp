@@ -10,13 +10,13 @@ namespace tushar::mpm::solid {
 
 /// Arguments of a model of the specific heat.
 struct HeatState {
-  double temperature;  ///< K
-  double ratio;        ///< density relative to that at the start, 1
-  double density;      ///< kg/m^3
-  double bulkModulus;  ///< Pa
+  double temperature;  ///< temperature [K]
+  double ratio;        ///< ratio of the density to the initial density [1]
+  double density;      ///< density [kg/m^3]
+  double bulkModulus;  ///< bulk modulus [Pa]
 };
 
-/// The <specific_heat> of the material.
+/// A constant specific heat, <specific_heat> of the material.
 struct ConstantHeat {
   static constexpr std::string_view name = "constant_Cp";
   static const input::Schema<ConstantHeat>& schema() {
@@ -26,13 +26,15 @@ struct ConstantHeat {
   double specificHeat(const HeatState&, double constant) const { return constant; }
 };
 
-/// A T³ - B T² + C T - D below a temperature, A_1 T + B_1 from there on: a fit to measurements of copper,
+/// Specific heat A T³ - B T² + C T - D below a temperature, A_1 T + B_1 from there on: a fit to measurements of copper,
 /// MacDonald & MacDonald, Phys. Rev. B 24 (1981) 1715.
 struct CopperHeat {
   static constexpr std::string_view name = "copper_Cp";
-  double transition = 270;                                   ///< K
-  double a0 = 0.0000416, b0 = 0.027, c0 = 6.21, d0 = 142.6;  ///< below, J/(kg K^4) … J/(kg K)
-  double a1 = 0.1009, b1 = 358.4;                            ///< above, J/(kg K^2), J/(kg K)
+  double transition = 270;  ///< temperature of the transition [K]
+  /// A, B, C, D below the transition, from J/(kg K^4) to J/(kg K)
+  double a0 = 0.0000416, b0 = 0.027, c0 = 6.21, d0 = 142.6;
+  /// A_1 and B_1 above the transition, J/(kg K^2) and J/(kg K)
+  double a1 = 0.1009, b1 = 358.4;
 
   static const input::Schema<CopperHeat>& schema() {
     using Self = CopperHeat;
@@ -55,13 +57,14 @@ struct CopperHeat {
   }
 };
 
-/// A + B t + C |t|^-n on either side of the transition at T_c, t = T/T_c - 1: Lederman, Salamon & Shacklette, Phys.
+/// Specific heat A + B t + C |t|^-n on either side of the transition at T_c, t = T/T_c - 1: Lederman, Salamon &
+/// Shacklette, Phys.
 /// Rev. B 9 (1974) 2981; the constants are of 4340 steel.
 struct SteelHeat {
   static constexpr std::string_view name = "steel_Cp";
-  double transition = 1040;                                ///< T_c, K
-  double a0 = 190.14, b0 = 273.75, c0 = 418.3, n0 = 0.2;   ///< below, J/(kg K); n 1
-  double a1 = 465.21, b1 = 267.52, c1 = 58.16, n1 = 0.35;  ///< above
+  double transition = 1040;                                ///< transition T_c [K]
+  double a0 = 190.14, b0 = 273.75, c0 = 418.3, n0 = 0.2;   ///< A, B, C [J/(kg K)] and n [1] below the transition
+  double a1 = 465.21, b1 = 267.52, c1 = 58.16, n1 = 0.35;  ///< the same constants above the transition
 
   static const input::Schema<SteelHeat>& schema() {
     using Self = SteelHeat;
@@ -78,7 +81,7 @@ struct SteelHeat {
             .value("n_HighT", &Self::n1, 0.35, "1", "n above the transition");
     return schema;
   }
-  /// At T_c itself, it has the value one kelvin below, as in Uintah.
+  /// The specific heat; at T_c itself, it has its value one kelvin below T_c, as in Uintah.
   double specificHeat(const HeatState& s, double) const {
     const double away = s.temperature == transition ? -1 : s.temperature - transition;
     const double t = away / transition;
@@ -86,15 +89,15 @@ struct SteelHeat {
   }
 };
 
-/// c = u³ / (c_0 + c_1 u + c_2 u² + c_3 u³) + beta² T K / rho, u = T/theta in K, theta = eta^a exp(b (1 - 1/eta)), eta
-/// = rho/rho_0: theta is a number, Debye's temperature over that at rho_0, as in Uintah's code. Sewell & Menikoff,
-/// Shock Compression of Condensed Matter (2003) 157, equations 5 to 7, and the difference of c_p and c_v. (Uintah's
-/// exponent is b (eta - 1), which is the same at small compression.)
+/// The specific heat c = u³ / (c_0 + c_1 u + c_2 u² + c_3 u³) + beta² T K / rho, u = T/theta in K, theta = eta^a exp(b
+/// (1 - 1/eta)), eta = rho/rho_0: theta is a number, Debye's temperature over that at rho_0, as in Uintah's code.
+/// Sewell & Menikoff, Shock Compression of Condensed Matter (2003) 157, equations 5 to 7, and the difference of c_p and
+/// c_v. (Uintah's exponent is b (eta - 1), which is the same at small compression.)
 struct CubicHeat {
   static constexpr std::string_view name = "cubic_Cp";
-  double a = 1, b = 1;                    ///< of Grüneisen's coefficient a + b/eta, 1
-  double expansion = 0;                   ///< beta, 1/K
-  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< kg K^4/J, kg K^3/J, kg K^2/J, kg K/J
+  double a = 1, b = 1;                    ///< constants of Grüneisen's coefficient a + b/eta [1]
+  double expansion = 0;                   ///< expansion beta [1/K]
+  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< c_0 to c_3: kg K^4/J, kg K^3/J, kg K^2/J, kg K/J
 
   static const input::Schema<CubicHeat>& schema() {
     using Self = CubicHeat;

@@ -11,23 +11,24 @@
 
 namespace tushar::mpm::solid {
 
-/// How the stress of a metal that flows follows its strain rate D, in a frame that turns with the metal:
+/// The stress rate of a metal in plastic flow as a function of its strain rate D, in a frame that rotates with the
+/// metal:
 ///
 ///     K tr D 1 + 2 G dev D - beta (n : D) n,   beta = (2 G)^2 / (2 G + 2 H/3),   n = dev sigma / |dev sigma|.
 struct PlasticTangent {
-  double bulk = 0;       ///< K, Pa
-  double shear = 0;      ///< G, Pa
-  double hardening = 0;  ///< H = d sigma_y / d e_p, Pa
+  double bulk = 0;       ///< bulk K [Pa]
+  double shear = 0;      ///< shear modulus G [Pa]
+  double hardening = 0;  ///< H = d sigma_y / d e_p [Pa]
 
   double softening() const { return 4 * shear * shear / (2 * shear + 2.0 / 3.0 * hardening); }
-  /// D : (rate of the stress), Pa/s^2; `normal` is n.
+  /// The work D : (rate of the stress) [Pa/s^2]; `normal` is n.
   double work(const Matrix3& normal, const Matrix3& rate) const {
     const double trace = rate.trace(), along = normal.cwiseProduct(rate).sum();
     return bulk * trace * trace + 2 * shear * deviator(rate).squaredNorm() - softening() * along * along;
   }
 };
 
-/// No check: particles stay as strong as their model.
+/// No check: particles do not lose strength.
 struct NoStabilityCheck {
   static constexpr std::string_view name = "none";
   static const input::Schema<NoStabilityCheck>& schema() {
@@ -37,7 +38,7 @@ struct NoStabilityCheck {
   bool fails(const PlasticTangent&, const Matrix3&, const Matrix3&) const { return false; }
 };
 
-/// Drucker's postulate: the rate of the stress does work on the strain rate.
+/// The check of Drucker's postulate, by which the stress rate does positive work on the strain rate.
 struct DruckerCheck {
   static constexpr std::string_view name = "drucker";
   static const input::Schema<DruckerCheck>& schema() {
@@ -45,21 +46,22 @@ struct DruckerCheck {
         "stability_check", "A particle fails where the rate of its stress does no work on its strain rate (Drucker).");
     return schema;
   }
-  /// `rate` is the symmetric part of the velocity gradient, 1/s.
+  /// Whether the check fails; `rate` is the symmetric part of the velocity gradient [1/s].
   bool fails(const PlasticTangent& tangent, const Matrix3& stress, const Matrix3& rate) const {
     const Matrix3 shear = deviator(stress);
     return tangent.work(shear / shear.norm(), rate) <= 0;
   }
 };
 
-/// Shear bands may form: R. Becker, Int. J. Solids Struct. 39 (2002) 3555. In the plane of the largest and the smallest
-/// principal stress, s_1 and s_3, velocities may jump across a line of slope y^(1/2) if A y^2 + B y + C = 0 with
+/// The check whether shear bands may form: R. Becker, Int. J. Solids Struct. 39 (2002) 3555. In the plane of the
+/// largest and the smallest principal stress, s_1 and s_3, velocities may jump across a line of slope y^(1/2) if A y^2
+/// + B y + C = 0 with
 ///
 ///     A = G (2 M_33 - s_3),   C = G (2 M_11 - s_1),
 ///     B = G (s_1 + s_3 - 4 M_13) + (s_1 + s_3) M_13 - s_1 M_33 - s_3 M_11 + 2 (M_11 M_33 - M_13^2),
 ///
-/// M_ij the tangent's stress i per strain j in the axes of the principal stresses. A particle fails if all four slopes
-/// are real. (Uintah takes the M of x and z, and sorts the principal stresses alone.)
+/// where M_ij is the derivative of stress i with respect to strain j in the axes of the principal stresses. A particle
+/// fails if all four slopes are real. (Uintah takes M_ij along x and z, and sorts only the principal stresses.)
 struct BeckerCheck {
   static constexpr std::string_view name = "becker";
   static const input::Schema<BeckerCheck>& schema() {
@@ -81,7 +83,7 @@ struct BeckerCheck {
   }
 };
 
-/// Either of both.
+/// The check that fails if DruckerCheck or BeckerCheck fails.
 struct DruckerBeckerCheck {
   static constexpr std::string_view name = "drucker_becker";
   static const input::Schema<DruckerBeckerCheck>& schema() {
@@ -94,7 +96,7 @@ struct DruckerBeckerCheck {
   }
 };
 
-/// What makes particles fail that flow plastically, where the scene has an `<erosion>`.
+/// Checks by which particles in plastic flow fail, if the scene has an `<erosion>`.
 using StabilityCheck = std::variant<NoStabilityCheck, DruckerCheck, BeckerCheck, DruckerBeckerCheck>;
 
 }  // namespace tushar::mpm::solid

@@ -19,37 +19,37 @@ namespace tushar::mpm::solid {
 ///
 /// R and K do not fall, as in Uintah.
 struct SuvicI {
-  /// Internal stresses, Pa.
+  /// Internal stresses [Pa].
   struct Stresses {
-    double yield;  ///< R
-    double drag;   ///< K
-    Matrix3 back;  ///< B
+    double yield;  ///< yield stress R
+    double drag;   ///< drag stress K
+    Matrix3 back;  ///< back stress B
   };
   static constexpr std::string_view name = "suvic_i";
 
-  double backGrowth = 75e6;         ///< A1, Pa
-  double backSaturation = 0.1e6;    ///< B0, Pa
-  double backExponent = 4;          ///< n, 1
-  double referenceRate = 7.794e-8;  ///< e0, 1/s
-  double rateFactor = 5e9;          ///< A, 1/s
-  double activationEnergy = 67500;  ///< Q, J/mol
-  double gasConstant = 8.3144;      ///< R_u, J/(mol K)
-  double temperature = 269.15;      ///< T, K
-  double rateExponent = 4;          ///< N, 1
-  double yieldSaturation = 0.8e6;   ///< R0, Pa
-  double yieldExponent = 4;         ///< m, 1
-  double yieldGrowth = 1600e6;      ///< A3, Pa
-  double dragGrowth = 95e6;         ///< A5, Pa
-  double stressSaturation = 1e6;    ///< S0, Pa
-  double initialDrag = 0.05e6;      ///< K at the start, Pa
-  double initialYield = 0;          ///< R at the start, Pa
+  double backGrowth = 75e6;         ///< back stress growth A1 [Pa]
+  double backSaturation = 0.1e6;    ///< back stress saturation B0 [Pa]
+  double backExponent = 4;          ///< back stress exponent n [1]
+  double referenceRate = 7.794e-8;  ///< reference rate e0 [1/s]
+  double rateFactor = 5e9;          ///< rate factor A [1/s]
+  double activationEnergy = 67500;  ///< activation energy Q [J/mol]
+  double gasConstant = 8.3144;      ///< gas constant R_u [J/(mol K)]
+  double temperature = 269.15;      ///< temperature T [K]
+  double rateExponent = 4;          ///< rate exponent N [1]
+  double yieldSaturation = 0.8e6;   ///< yield saturation R0 [Pa]
+  double yieldExponent = 4;         ///< yield exponent m [1]
+  double yieldGrowth = 1600e6;      ///< yield growth A3 [Pa]
+  double dragGrowth = 95e6;         ///< drag growth A5 [Pa]
+  double stressSaturation = 1e6;    ///< stress saturation S0 [Pa]
+  double initialDrag = 0.05e6;      ///< initial K [Pa]
+  double initialYield = 0;          ///< initial R [Pa]
 
   static const input::Schema<SuvicI>& schema() {
     static const input::Schema<SuvicI> schema = makeSchema();
     return schema;
   }
 
-  /// Relaxes the trial stress deviator `stress`, Pa, in a step by backward Euler, so that any time step is stable.
+  /// Relaxes the trial stress deviator `stress` [Pa] in a step by backward Euler, so that any time step is stable.
   /// Returns the inelastic strain of the step. The deviator of s - B keeps the direction of z = s_trial - B/(1 + A1
   /// e/B'), so that the strain e is the root of one equation, X - R - K (e/(dt A exp(-Q/(R_u T))))^(1/N) = 0.
   double relax(double shearModulus, double timeStep, Matrix3& stress, Stresses& internal) const {
@@ -67,11 +67,11 @@ struct SuvicI {
  private:
   /// The state at the end of a step with a given inelastic strain.
   struct Point {
-    double kept;     ///< 1/(1 + A1 e/B'), 1
-    Matrix3 z;       ///< s_trial - kept B, Pa
-    double reduced;  ///< (3/2 z:z)^(1/2), Pa
-    double yield;    ///< R, Pa
-    double drag;     ///< K, Pa
+    double kept;     ///< factor 1/(1 + A1 e/B') of the back stress [1]
+    Matrix3 z;       ///< s_trial - kept B [Pa]
+    double reduced;  ///< equivalent reduced stress (3/2 z:z)^(1/2) [Pa]
+    double yield;    ///< yield stress R [Pa]
+    double drag;     ///< drag stress K [Pa]
   };
   struct Step {
     const SuvicI& model;
@@ -90,8 +90,8 @@ struct SuvicI {
       return {kept, z, std::sqrt(1.5) * z.norm(), grown(start.yield, yield, model.yieldGrowth * strain),
               grown(start.drag, drag, model.dragGrowth * strain)};
     }
-    /// Uses the method of false position in the variable e^(1/N), in which slow creep is linear; Dowell & Jarratt, BIT
-    /// 11 (1971) 168.
+    /// Solves for the strain, using the method of false position in the variable e^(1/N), in which slow creep is
+    /// linear; Dowell & Jarratt, BIT 11 (1971) 168.
     double strain() const {
       const double greatest = std::sqrt(1.5) * (trial.norm() + start.back.norm()) / (3 * shearModulus);
       double low = 0, high = std::pow(greatest, 1 / model.rateExponent), root = high;
@@ -119,7 +119,7 @@ struct SuvicI {
       return saturated > old ? (old + growth) / (1 + growth / saturated) : old;
     }
   };
-  /// (X - R)/K at a rate.
+  /// The overstress (X - R)/K at a rate.
   double overstress(double rate) const {
     return std::pow(rate / (rateFactor * std::exp(-activationEnergy / (gasConstant * temperature))), 1 / rateExponent);
   }

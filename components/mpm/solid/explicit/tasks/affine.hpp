@@ -7,11 +7,11 @@
 namespace tushar::mpm::solid {
 
 // The affine particle-in-cell method: a particle carries B_p = sum_i S_i v*_i (x_i - x_p)^T besides its velocity, so
-// that velocities that are linear in space go to the grid and back as they are, and angular momentum is kept; Jiang,
+// that velocities that are linear in space go to the grid and back unchanged, and angular momentum is conserved; Jiang,
 // Schroeder, Selle, Teran & Stomakhin, ACM Trans. Graph. 34 (2015) 51. Velocities are those of PIC.
 
-/// S_i D^(-1) (x_i - x_p) along an axis, 1/m, with D = sum_i S_i (x_i - x_p)^2; where D vanishes, the factors are
-/// dS_i/dx, the limit for the tent function.
+/// The factors S_i D^(-1) (x_i - x_p) along an axis [1/m], with D = sum_i S_i (x_i - x_p)^2; where D vanishes, the
+/// factors are dS_i/dx, the limit for the tent function.
 template <std::size_t N>
 void setAffineFactors(const std::array<Quad, N>& s, int axis, double firstNode, double spacing, double x,
                       std::array<Quad, N>& factors) {
@@ -25,7 +25,7 @@ void setAffineFactors(const std::array<Quad, N>& s, int axis, double firstNode, 
     for (std::size_t k = 0; k < N; ++k) factors[k][axis] = s[k][axis] * away[k] / spread;
 }
 
-/// v_i += sum_p S_i m_p B_p D_p^(-1) (x_i - x_p) / m_i
+/// Adds the affine velocities to the nodes: v_i += sum_p S_i m_p B_p D_p^(-1) (x_i - x_p) / m_i
 template <class Shape, int D = Shape::dimension>
 void addAffineVelocity(const Patch& patch, const Material& material, const Vec3& commonSize, const Placed<D>& particles,
                        ParticleView<const double> mass, ParticleView<const Matrix3> moment,
@@ -46,7 +46,7 @@ void addAffineVelocity(const Patch& patch, const Material& material, const Vec3&
   setSymmetry<D>(patch, material.index, touchedRows<D>(x, Shape::ghostNodes), record);
 }
 
-/// B_p = sum_i S_i v*_i (x_i - x_p)^T, m^2/s
+/// Computes B_p = sum_i S_i v*_i (x_i - x_p)^T [m^2/s].
 template <class Shape, int D = Shape::dimension>
 void updateAffineMoment(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const NodeRecord> record,
                         const Placed<D>& particles, ParticleView<Matrix3> moment) {
@@ -61,7 +61,7 @@ void updateAffineMoment(const Patch& patch, const Material&, const Vec3& commonS
   });
 }
 
-/// At the start, B of a particle is 0.
+/// Sets the initial B of each particle to 0.
 inline void initializeAffineMoment(const Patch&, const Material&, ParticleView<const double> mass,
                                    ParticleView<Matrix3> moment) {
   for (int p = 0; p < mass.owned(); ++p) moment[p].setZero();

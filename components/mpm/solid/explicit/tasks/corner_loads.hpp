@@ -11,10 +11,10 @@
 
 namespace tushar::mpm::solid {
 
-/// Layers of cells around a patch whose particles may have a corner next to its nodes.
+/// Number of layers of cells around a patch whose particles may have a corner next to the nodes of the patch.
 inline constexpr int cornerReach = 2;
 
-/// Particles that bear loads.
+/// Views of particles on which loads act.
 template <int D>
 struct LoadedParticles {
   ParticleView<const Vec<D>> x;
@@ -28,7 +28,7 @@ struct LoadedParticles {
             .deformation = take(requiresOld(p::deformationMeasure, reach)),
             .loadCurves = take(requiresOld(p::loadCurves, reach))};
   }
-  /// Particle p as a parallelepiped. Along axes that the grid leaves out its edge is 1 m at the start.
+  /// Particle p as a parallelepiped. Along axes that the grid does not use, its initial edge is 1 m.
   ParticleBox box(const Level& level, const Vec3& commonSize, int p) const {
     Vec3 edges = Vec3::Ones();
     for (int d = 0; d < D; ++d)
@@ -42,7 +42,7 @@ struct LoadedParticles {
   }
 };
 
-/// The force of loads on each particle at the start of the step, where they act at corners.
+/// Computes the force of loads on each particle at the start of the step, for loads that act at corners.
 template <int D>
 void applyLoadsAtCorners(const Patch& patch, const Material&, const Loads& loads, const Vec3& commonSize, double time,
                          const LoadedParticles<D>& particles, ParticleView<Vec<D>> externalForce) {
@@ -55,7 +55,7 @@ void applyLoadsAtCorners(const Patch& patch, const Material&, const Loads& loads
   }
 }
 
-/// f_i += N_i(x) force, with the tent functions of the cell that contains the point.
+/// Adds N_i(x) force to f_i, with the tent functions of the cell that contains the point.
 template <int D>
 void addForceAt(const Level& level, const Vec<D>& x, const Vec<D>& force, NodeView<NodeRecord> record) {
   Index<D> cell;
@@ -74,8 +74,8 @@ void addForceAt(const Level& level, const Vec<D>& x, const Vec<D>& force, NodeVi
   }
 }
 
-/// Adds the forces of loads to those of the nodes around the corners on which they act. A corner lies at most a cell
-/// from the middle of its particle along each axis.
+/// Adds the forces of loads to the nodes around the corners on which the loads act. A corner lies at most a cell from
+/// the middle of its particle along each axis.
 template <int D>
 void addLoadsAtCorners(const Patch& patch, const Material& material, const Loads& loads, const Vec3& commonSize,
                        double time, const LoadedParticles<D>& particles, NodeView<NodeRecord> record) {

@@ -25,11 +25,11 @@ void exchangeMomentum(const Patch& patch, const std::vector<Material>&, const st
     if (contact.actsTwice || moment == Moment::end) applyContact<D>(patch, contact, time, dt, records, planes);
 }
 
-/// For each material, a force on the nodes [N]; empty if no material transmits force.
+/// Views of a force on the nodes [N] for each material; empty if no material transmits force.
 template <int D>
 using TransmittedForces = std::vector<std::optional<NodeView<Vec<D>>>>;
 
-/// Adds `share` times the momentum of the materials of a contact, at the nodes of its master, kg m/s.
+/// Adds `share` times the momentum of the materials of a contact at the nodes of its master [kg m/s].
 template <int D>
 void addMomentum(const Contact& contact, const Records& records, double share, NodeView<Vec<D>> sum) {
   forEach<D>(sum.box(), [&](const Index<D>& node) {
@@ -40,9 +40,10 @@ void addMomentum(const Contact& contact, const Records& records, double share, N
   });
 }
 
-/// Exchanges momentum between the velocities at the end of the step, Uintah's exMomIntegrated: adds the force of rigid
-/// and specified contacts to `reaction` and, for a master that transmits force, the force that the others exert on it,
-/// - sum m (v* after - v* before) / dt at each node, N, to `transmitted`.
+/// Applies contacts to the velocities at the end of the step, as Uintah's exMomIntegrated. Adds the force of rigid and
+/// specified contacts to `reaction` and, for a master that transmits force, the force that the other materials exert on
+/// it,
+/// - sum m (v* after - v* before) / dt at each node [N] to `transmitted`.
 template <int D>
 void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& materials,
                            const std::vector<Contact>& contacts, const Acceleration& acceleration, double time,

@@ -122,7 +122,7 @@ void computeSurface(const Patch& patch, const std::vector<Material>& materials, 
   }
 }
 
-/// Applies friction between materials in contact, and computes its heat, J, if the scene needs it.
+/// Applies friction between materials in contact, and computes its heat [J] if the scene needs it.
 template <int D>
 void exchangeByFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
                         Moment moment, int ghostNodes, const std::vector<ParticleView<const Vec<D>>>& x, double dt,

@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// v_i += sum_p S_i m_p L_p (x_i - x_p) / m_i, with L_p of the previous step: a node receives the velocity of the
-/// particle's field at the node; Wallstedt & Guilkey, Comput. Model. Eng. Sci. 19 (2007) 223.
+/// Computes v_i += sum_p S_i m_p L_p (x_i - x_p) / m_i, with L_p of the previous step: a node receives the value, at
+/// the node, of the particle's linear velocity field; Wallstedt & Guilkey, Comput. Model. Eng. Sci. 19 (2007) 223.
 template <class Shape, int D = Shape::dimension>
 void addVelocityGradient(const Patch& patch, const Material& material, const Vec3& commonSize,
                          const Placed<D>& particles, ParticleView<const double> mass,

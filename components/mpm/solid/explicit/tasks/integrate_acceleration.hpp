@@ -7,8 +7,8 @@
 
 namespace tushar::mpm::solid {
 
-/// v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt, or v_i if the material transmits force; afterwards the record
-/// holds v* and v.
+/// Computes v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt, or v_i if the material transmits force; afterwards the
+/// record holds v* and v.
 template <int D>
 void computeAndIntegrateAcceleration(const Patch& patch, const Material& material, const Method& method, int ghostNodes,
                                      ParticleView<const Vec<D>> x, double dt, NodeView<NodeRecord> record) {
@@ -26,7 +26,7 @@ void computeAndIntegrateAcceleration(const Patch& patch, const Material& materia
   });
 }
 
-/// Sets v*_i at the sides of the grid, at nodes that particles touch.
+/// Sets v*_i at the sides of the grid, at nodes near particles.
 template <int D>
 void setGridBoundaryConditions(const Patch& patch, const Material& material, int ghostNodes,
                                ParticleView<const Vec<D>> x, NodeView<NodeRecord> record) {

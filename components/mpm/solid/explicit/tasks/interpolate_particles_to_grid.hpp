@@ -14,7 +14,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Mass and momentum of the particles within reach of shape functions.
+/// Views of mass and momentum of the particles within reach of shape functions.
 template <int D>
 struct MomentumSources {
   ParticleView<const Vec<D>> x;
@@ -23,7 +23,7 @@ struct MomentumSources {
   ParticleView<const Vec<D>> velocity;
   OptionalView<const Matrix3> deformation;  ///< F, if shape functions or stresses depend on it
 
-  /// `velocity` and `deformation` are the accesses to these two variables.
+  /// `velocity` and `deformation` are the accesses to the variables of these names.
   static MomentumSources from(auto& take, int reach, KeptSizes keepsSizes, auto velocity, auto deformation) {
     return {.x = take(requiresOld(p::x<D>, reach)),
             .size = Sizes<D>::from(take, keepsSizes, reach),
@@ -33,11 +33,11 @@ struct MomentumSources {
   }
 };
 
-/// The variables, in addition to F, from which the forces of particles follow.
+/// Views of the variables, in addition to F, that determine the forces of particles.
 template <int D>
 struct ForceSources {
   OptionalView<const double> volume;
-  OptionalView<const Matrix3> stress;  ///< if the stress is not a function of F alone
+  OptionalView<const Matrix3> stress;  ///< stress, if it is not a function of F alone
   OptionalView<const double> viscosity;
   OptionalView<const Vec<D>> externalForce;
 
@@ -50,8 +50,8 @@ struct ForceSources {
   }
 };
 
-/// Scatters the particles of a material to their nodes; `forces` is null for mass and momentum only. Holds pointers,
-/// not views: its loops are those of every step.
+/// Scatters the particles of a material to their nodes; `forces` is null if only mass and momentum are needed. It
+/// stores pointers instead of views, because its loops run in every step.
 template <class Shape>
 class Scatter {
  public:
@@ -75,7 +75,7 @@ class Scatter {
     has_stress_ = !material.isRigid;
   }
 
-  /// Adds the particles of cells of the patch. `moments` is room for numbers of each.
+  /// Adds the particles of cells of the patch. `moments` is work memory: one matrix per particle.
   void addCells(const CellRun<D>& cells, std::vector<Matrix3>& moments) const {
     moments.resize(std::max(moments.size(), static_cast<std::size_t>(cells.count())));
     cells.forEachGroup([&](int k, int count) { forceMoments(cells.first() + k, count, moments.data() + k); });
@@ -83,8 +83,8 @@ class Scatter {
       addParticles<false>(cell, range.first, range.size(), moments.data() + (range.first - cells.first()));
     });
   }
-  /// Adds the particles of a ghost cell that touch the patch's own nodes. The stresses of those between the first and
-  /// the last of a group come along, as several cost as much as one.
+  /// Adds those particles of a ghost cell that contribute to the patch's own nodes. Of each group of particles, the
+  /// stresses of all from the first to the last of these are computed, as several cost as much as one.
   void addGhostCell(const Index<D>& cell, const data::ParticleRange& range) const {
     if (hasOwnNode(cell)) {
       for (int at = range.first; at < range.last; at += stressGroup)
@@ -105,14 +105,14 @@ class Scatter {
   using Touching = std::uint64_t;
   static_assert(stressGroup <= 64);
 
-  /// Whether a cell has a node of the view's box.
+  /// Whether a cell has a node in the box of the view.
   bool hasOwnNode(const Index<D>& cell) const {
     const Box& nodes = record_.box();
     bool has = true;
     for (int d = 0; d < D; ++d) has &= (cell[d] + 1 >= nodes.lower[d]) & (cell[d] < nodes.upper[d]);
     return has;
   }
-  /// Whether a particle touches, or almost touches, a node of the view's box.
+  /// Whether a particle contributes, or almost contributes, to a node in the box of the view.
   bool touchesOwn(const CellFrame<D>& frame, const Index<D>& cell, int p) const {
     constexpr double rounding = 1e-6;
     const Box& nodes = record_.box();
@@ -123,7 +123,7 @@ class Scatter {
     }
     return true;
   }
-  /// V (sigma - q I) of up to stressGroup particles starting with `first`, N m; 0 without stress.
+  /// V (sigma - q I) of up to stressGroup particles starting with `first` [N m]; 0 without stress.
   void forceMoments(int first, int count, Matrix3* moments) const {
     if (!has_stress_) {
       std::fill_n(moments, count, Matrix3(Matrix3::Zero()));
@@ -146,8 +146,8 @@ class Scatter {
     forceMoments(first, count, moments.data());
     addParticles<true>(cell, first, count, moments.data(), touching);
   }
-  /// Adds particles of a cell to the nodes around: m v and m with S_i, -V sigma with its gradient. Where `isWithin`,
-  /// only those that have their bit in `touching`, to nodes of the view's box.
+  /// Adds particles of a cell to the surrounding nodes: m v and m with S_i, -V sigma with its gradient. If `isWithin`,
+  /// adds only particles whose bit in `touching` is set, and only to nodes in the view's box.
   template <bool isWithin>
   void addParticles(const Index<D>& cell, int first, int count, const Matrix3* moments, Touching touching = 0) const {
     prefetch(x_, first + count, count);
@@ -166,7 +166,7 @@ class Scatter {
         scatter(stencil, windowOf<NodeRecord>(record_, stencil), share.value, share.slope, share.hoop);
     });
   }
-  /// Adds particles that touch only the nodes of their cell, whose records are kept in registers.
+  /// Adds particles that contribute only to the nodes of their cell; the records of these nodes are kept in registers.
   void addTogether(const CellFrame<D>& frame, const Index<D>& cell, int first, int count, const Matrix3* moments) const
       requires(sharesNodes<Shape>) {
     CellRecords<D> records(windowFrom(record_, cell));
@@ -176,8 +176,8 @@ class Scatter {
     });
     records.store();
   }
-  /// The contribution of a particle: m v, m and its force, weighted with S_i; -V sigma, with the gradient of S_i and
-  /// S_i / r.
+  /// The contribution of a particle to a node: m v, m and its force, weighted by S_i; and -V sigma, weighted by the
+  /// gradient of S_i and by S_i / r.
   struct Share {
     NodeRecord value;
     std::array<Quad, D> slope;
@@ -207,13 +207,13 @@ class Scatter {
   const Vec<D>*x_, *velocity_;
   const double* mass_;
   StressSource stresses_;
-  const double* viscosity_ = nullptr;       ///< null if there is none
-  const Vec<D>* external_force_ = nullptr;  ///< null if there is none
+  const double* viscosity_ = nullptr;       ///< artificial viscosity; null if there is none
+  const Vec<D>* external_force_ = nullptr;  ///< external forces; null if there are none
   bool has_stress_ = false;
   const NodeView<NodeRecord>& record_;
 };
 
-/// The cells whose particles touch nodes of a box: those at the nodes, and `ghostNodes` layers around them.
+/// The cells whose particles contribute to the nodes of a box: those at the nodes, and `ghostNodes` layers around them.
 template <int D>
 Box cellsThatTouch(Box nodes, int ghostNodes) {
   for (int d = 0; d < D; ++d) {
@@ -223,8 +223,8 @@ Box cellsThatTouch(Box nodes, int ghostNodes) {
   return nodes;
 }
 
-/// Velocities, masses and forces on the patch's own nodes: complete on all touched nodes; untouched nodes are 0 if
-/// `clearsAll`, otherwise undefined.
+/// Computes velocities, masses and forces on the patch's own nodes. They are complete on nodes that particles touch; on
+/// other nodes they are 0 if `clearsAll`, otherwise undefined.
 template <class Shape, int D = Shape::dimension>
 void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, ParticleView<const Vec<D>> x,
                       const Scatter<Shape>& scatter, NodeView<NodeRecord> record) {
@@ -257,13 +257,13 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
       if ((*node)[lane::mass] > 0)
         setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
   });
-  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);  // sides do not act on what does
+  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);  // sides act only on these
 }
 
-/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
+/// Computes m_i = sum_p S_i m_p, v_i = sum_p S_i m_p v_p / m_i,
 /// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i /
-/// r. Complete on all own nodes of the patch that are touched; what is not touched is 0 if `clearsAll`, else
-/// undefined.
+/// r. The values are complete on those of the patch's own nodes that particles touch; on other nodes they are 0 if
+/// `clearsAll`, otherwise undefined.
 template <class Shape, int D = Shape::dimension>
 void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
                                 const MomentumSources<D>& from, const ForceSources<D>& forces,
@@ -272,7 +272,7 @@ void interpolateParticlesToGrid(const Patch& patch, const Material& material, co
   scatterParticles<Shape>(patch, material, clearsAll, from.x, scatter, record);
 }
 
-/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i for any velocity of particles; no forces.
+/// Computes m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i for any velocity of particles; no forces.
 template <class Shape, int D = Shape::dimension>
 void interpolateMomentum(const Patch& patch, const Material& material, const Vec3& commonSize,
                          const MomentumSources<D>& from, NodeView<NodeRecord> record) {

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The variables of the task that moves particles to the end of a step.
+/// Views of the variables with which particles are moved to the end of a step.
 template <int D>
 struct ParticleUpdate {
   ParticleView<Vec<D>> newX, newVelocity;
@@ -17,7 +17,7 @@ struct ParticleUpdate {
   }
 };
 
-/// x, v, F and the stress in one pass over the particles: Uintah's interpolateToParticlesAndUpdate,
+/// Updates x, v, F and the stress in one pass over the particles: Uintah's interpolateToParticlesAndUpdate,
 /// computeParticleGradients and computeStressTensor.
 template <class Shape, int D = Shape::dimension>
 void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, double time,

@@ -10,18 +10,18 @@
 
 namespace tushar::mpm::solid {
 
-// The work on particles in a step: of forces with w = (v + v*)/2 of the nodes, of constraints that hold nodes at a
-// velocity with that velocity, and of the mean of the stresses before and after with the change of F. The rest of the
-// change of kinetic energy is dissipated by the method itself: by FLIP to first order in dt (Bardenhagen, J. Comput.
-// Phys. 180 (2002) 383); by APIC, PIC and XPIC through the viscosity of their transfer; by contact as two bodies come
-// to move as one.
+// The work on particles in a step. Forces act along w = (v + v*)/2 of the nodes; constraints that prescribe the
+// velocity of nodes act along this velocity; the mean of the stresses at the start and at the end of the step acts
+// along the change of F. The rest of the change of kinetic energy is dissipated by the method itself: by FLIP to first
+// order in dt (Bardenhagen, J. Comput. Phys. 180 (2002) 383); by APIC, PIC and XPIC through the viscosity of their
+// transfer; by contact, when two bodies come to move as one.
 
 /// Indices of the components of p.work, as in total::work.
 namespace works {
 inline constexpr int external = 0, boundary = 1, contact = 2, dissipated = 3, strain = 4, plastic = 5, start = 6;
 }
 
-/// At the start, no work has been done.
+/// Sets the initial work to 0, and stores the initial kinetic energy.
 template <int D>
 void startWork(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<p::Works> work) {
@@ -31,14 +31,14 @@ void startWork(const Patch&, const Material&, ParticleView<const double> mass, P
   }
 }
 
-/// Copies the current velocity of the records.
+/// Copies the current velocity from the records.
 template <int D>
 void keepVelocity(const Patch&, const Material&, NodeView<const NodeRecord> record, NodeView<Vec<D>> kept) {
   forEach<D>(kept.box(), [&](const Index<D>& node) { kept[node] = lanes<D>(record[node], lane::velocity); });
 }
 
-/// Computes w at the nodes, and the work per mass there: of gravity, of the sides of the grid, of contact, and of
-/// damping.
+/// Computes w at the nodes, and the work per mass at the nodes: of gravity, of the sides of the grid, of contact, and
+/// of damping.
 template <int D>
 void computeNodalWork(const Patch& patch, const Material&, const Method& method, double dt,
                       NodeView<const NodeRecord> record, NodeView<const Vec<D>> ofForces,
@@ -55,7 +55,7 @@ void computeNodalWork(const Patch& patch, const Material&, const Method& method,
   });
 }
 
-/// The variables that measureWork reads and writes.
+/// Views of the variables that measureWork reads and writes.
 template <int D>
 struct ParticleWork {
   Placed<D> particles;
@@ -65,7 +65,7 @@ struct ParticleWork {
   ParticleView<const p::Works> old;
   ParticleView<p::Works> work;
 
-  /// `deformation` is an access of F.
+  /// `deformation` is the access to F.
   static ParticleWork from(auto& take, const ShapeTraits& shape, const Keeps& keeps, auto deformation) {
     return {.particles = Placed<D>::from(take, keeps.sizes, 0, deformation),
             .mass = take(requiresOld(p::mass)),
@@ -92,11 +92,11 @@ void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, do
   });
 }
 
-/// F and the stress of particles, at the start of a step or at its end.
+/// Views of F and the stress of particles, at the start of a step or at its end.
 struct Stressed {
   ParticleView<const Matrix3> deformation;
   OptionalView<const double> volume;
-  OptionalView<const Matrix3> stress;  ///< if the stress is not a function of F alone
+  OptionalView<const Matrix3> stress;  ///< stress, if it is not a function of F alone
 
   static Stressed from(auto& take, bool keepsStress, auto reads) {
     return {.deformation = take(reads(p::deformationMeasure, 0)),
@@ -108,14 +108,14 @@ struct Stressed {
   }
 };
 
-/// The variables that measureStrainWork reads and writes.
+/// Views of the variables that measureStrainWork reads and writes.
 struct StrainWork {
   ParticleView<const double> mass;
   Stressed before, after;
   OptionalView<const double> viscosity;
   ParticleView<p::Works> work;
 
-  /// `old` and `fresh` read a variable at the start of the step and as computed in the step.
+  /// `old` reads a variable at the start of the step, `fresh` as computed in the step.
   static StrainWork from(auto& take, const Keeps& keeps, auto old, auto fresh) {
     return {.mass = take(requiresOld(p::mass)),
             .before = Stressed::from(take, keeps.stress, old),
@@ -166,7 +166,7 @@ inline void measurePlasticWork(const Patch&, const Material& material, int state
   }
 }
 
-/// The sum of one of the numbers of p.work over all particles.
+/// Computes the sum of one component of p.work over all particles.
 inline void sumWork(const Patch&, const Material&, int which, ParticleView<const p::Works> work, Sum& total) {
   WideSum sum(total);
   for (int p = 0; p < work.owned(); ++p) sum.add(work[p][which]);

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// v*_i = L(t) x_i on all nodes that particles touch, without acceleration: velocities of particles do not change,
+/// Sets v*_i = L(t) x_i on all nodes near particles, without acceleration: velocities of particles do not change,
 /// while particles move and deform with the grid, about the origin.
 template <int D>
 void prescribeMotion(const Patch& patch, const Material&, const PrescribedDeformation* deformation, int ghostNodes,

@@ -18,7 +18,8 @@ struct BetweenPlanes {
       if (level.isSymmetry(d, 1, material)) upper[d] = level.nodePosition(d, level.cells().upper[d]);
     }
   }
-  /// A position that is not a number counts as inside: it is an error of its own, which the relocation reports.
+  /// Whether a position is inside. A position that is not a number counts as inside: the relocation reports it as a
+  /// separate error.
   bool contains(const Vec<D>& x) const { return containAll(&x, 1); }
   /// Whether all of `count` positions are inside.
   bool containAll(const Vec<D>* x, int count) const {
@@ -29,10 +30,11 @@ struct BetweenPlanes {
   }
 };
 
-/// In a cell where a wave has no speed or a particle is behind a symmetry plane: removes the particles that the step
-/// turns inside out (det F <= 0), as explicit finite-element codes delete elements with a negative Jacobian, or throws
-/// through a symmetry plane. Returns the waves of the others; `none` has none. Throws NumericalError if particles
-/// cannot be removed, or if the wave speed of another is undefined.
+/// Removes the lost particles of a cell in which a wave speed is undefined or a particle is behind a symmetry plane:
+/// those that the step turns inside out (det F <= 0), as explicit finite-element codes delete elements with a negative
+/// Jacobian, and those that it throws through a symmetry plane. Returns the crossing rate of the other particles'
+/// waves; `none` is the rate without waves. Throws NumericalError if particles cannot be removed, or if the wave speed
+/// of one of the others is undefined.
 template <int D>
 CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                             const data::ParticleRange& range, const CrossingRate<D>& none,

@@ -8,11 +8,11 @@
 
 namespace tushar::mpm::solid {
 
-/// The variables of a material that separateBodies reads and writes.
+/// Views of the variables of a material that separateBodies reads and writes.
 template <int D>
 struct PlaneSources {
   Placed<D> particles;
-  OptionalView<const Vec<D>> size;  ///< edge lengths at the start, in cells, if shape functions do not read them
+  OptionalView<const Vec<D>> size;  ///< initial edge lengths in cells, if shape functions do not read them
   ParticleView<const int> surface;
   NodeView<Vec<D>> normal;
   NodeView<double> prominence;
@@ -25,7 +25,8 @@ struct PlaneSources {
             .normal = take(computes(g::separatingNormal<D>)),
             .prominence = take(computes(g::prominence))};
   }
-  /// Column i: from the centre of particle p to the centre of its face that lay along axis i at the start, m.
+  /// Half the edges of particle p, one per column: column i is the vector [m] from the centre of the particle to the
+  /// centre of the face that was initially above it along axis i.
   template <class Shape>
   Eigen::Matrix<double, D, D> halfEdges(const Level& level, const Vec3& commonSize, int p) const {
     Eigen::Matrix<double, D, D> half = Eigen::Matrix<double, D, D>::Zero();
@@ -80,7 +81,7 @@ void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const 
   });
 }
 
-/// The planes that separate bodies, for contacts with friction along them.
+/// Computes the planes that separate bodies, for contacts with friction along them.
 template <class Shape, int D = Shape::dimension>
 void separateBodies(const Patch& patch, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
                     const Vec3& commonSize, const std::vector<NodeView<const NodeRecord>>& records,
@@ -99,7 +100,7 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
     measureProminence<Shape>(patch, commonSize, static_cast<int>(m), nodes, normals, of[m]);
 }
 
-/// The mass-weighted mean of p.color at the nodes of a patch; 0 without mass.
+/// Computes the mass-weighted mean of p.color at the nodes of a patch; 0 without mass.
 template <class Shape, int D = Shape::dimension>
 void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSize, const Placed<D>& particles,
                       ParticleView<const double> mass, ParticleView<const double> color,
@@ -115,7 +116,7 @@ void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSiz
   });
 }
 
-/// Whether each particle starts at the surface of its body.
+/// Computes whether each particle is initially at the surface of its body.
 template <int D>
 void findSurface(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
                  ParticleView<int> surface) {

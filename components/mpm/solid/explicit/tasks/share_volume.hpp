@@ -4,18 +4,17 @@
 
 namespace tushar::mpm::solid {
 
-/// The change of volume that determines the stress of a particle.
+/// Which change of volume determines the stress of a particle.
 enum class Volumes {
-  own,    ///< its own
-  shared  ///< that of all particles of its material in the cell that have not failed
+  own,    ///< the change of its own volume
+  shared  ///< the change of the total volume of all intact particles of its material in the cell
 };
 
-/// F_p = (J_c / det F_p)^(1/3) F_p with J_c = sum_p V0_p det F_p / sum_p V0_p over the intact particles of a cell
-/// (masses are proportional to V0); tr L_p changes accordingly. The pressure of the particles then no longer prevents
-/// the cell from being sheared or bent. This is Uintah's DoPressureStabilization, and F-bar (de Souza Neto et al.,
-/// Int. J. Solids Structures 33 (1996) 3277) applied to a cell. A particle that is turned inside out is left as it
-/// is, and out of the sums.
-/// `velocityGradient` holds L, 1/s, of the particles of `range`.
+/// Computes F_p = (J_c / det F_p)^(1/3) F_p with J_c = sum_p V0_p det F_p / sum_p V0_p over the intact particles of a
+/// cell (masses are proportional to V0); tr L_p changes accordingly. The pressure of the particles then no longer
+/// resists shearing or bending of the cell. This is Uintah's DoPressureStabilization, that is, F-bar (de Souza Neto et
+/// al., Int. J. Solids Structures 33 (1996) 3277) applied to a cell. An inverted particle is left unchanged and
+/// excluded from the sums. `velocityGradient` contains L [1/s] of the particles of `range`.
 template <int D>
 void shareVolume(double dt, const data::ParticleRange& range, const StateUpdate<D>& u, Matrix3* velocityGradient);
 

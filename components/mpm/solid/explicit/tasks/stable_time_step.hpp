@@ -20,7 +20,7 @@ class CrossingRate {
     for (int d = 0; d < D; ++d) inverse_spacing_[d] = level.inverseSpacing(d);
   }
 
-  /// Adds waves with the speed c, m/s, in a material that moves with v.
+  /// Adds waves with the speed c [m/s] in a material that moves with velocity v.
   void add(double c, const Vec<D>& v) { add(&c, &v, 1); }
   /// Adds `count` speeds, each in a material with its own velocity.
   void add(const double* c, const Vec<D>* v, int count) {
@@ -34,12 +34,12 @@ class CrossingRate {
         rates_ = greater(rates_, (speed + abs(velocity[d])) * inverse_spacing_[static_cast<int>(d)]);
     }
   }
-  /// Time in which the fastest wave crosses a cell, s; infinite without waves, NaN if a speed is NaN.
+  /// Time in which the fastest wave crosses a cell [s]; infinite without waves, NaN if a speed is NaN.
   double time() const { return isKnown() ? 1 / greatest(rates_) : std::numeric_limits<double>::quiet_NaN(); }
   bool isKnown() const { return all(rates_ >= rates_); }
 
  private:
-  /// A NaN is preserved.
+  /// The larger number in each lane; NaN is preserved.
   static Lanes greater(const Lanes& so_far, const Lanes& other) {
     return select(so_far > other, so_far, select(isNaN(so_far), so_far, other));
   }
@@ -49,7 +49,7 @@ class CrossingRate {
   Vec<D> inverse_spacing_;
 };
 
-/// The stable time step for the state at the start, with wave speeds at the density that follows from F.
+/// Computes the stable time step for the initial state, with wave speeds at the density that follows from F.
 template <int D>
 void computeInitialTimeStep(const Patch& patch, const Material& material, ParticleView<const Vec<D>> velocity,
                             ParticleView<const double> temperature, ParticleView<const Matrix3> deformation,

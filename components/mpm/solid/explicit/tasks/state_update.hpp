@@ -6,10 +6,10 @@
 
 namespace tushar::mpm::solid {
 
-/// The variables with which F, the stress and internal variables are updated in a step.
+/// Views of the variables with which F, the stress and internal variables are updated in a step.
 template <int D>
 struct StateUpdate {
-  NodeView<const NodeRecord> record;  ///< contains the velocity that changes F
+  NodeView<const NodeRecord> record;  ///< record with the velocity that changes F
 
   // At the start of the step.
   ParticleView<const Vec<D>> x;
@@ -34,7 +34,7 @@ struct StateUpdate {
 
   int stateSize = 0;  ///< number of values per particle in `state`
 
-  /// `removes`: whether positions at the end of the step exist, to remove particles.
+  /// `removes`: whether positions at the end of the step are available, so that particles can be removed.
   static StateUpdate from(auto& take, int ghostNodes, const Keeps& keeps, const NodeLabel<NodeRecord>* record,
                           bool removes) {
     return {.record = take(requiresNew(*record, ghostNodes)),

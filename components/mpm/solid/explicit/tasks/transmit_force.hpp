@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The mass (kg) and the force (N) of a material on the patches of a rank.
+/// The mass [kg] of a material on the patches of a rank, and the force [N] on it.
 struct Pull {
   Sum mass;
   VectorSum force;
@@ -21,7 +21,7 @@ struct Pull {
   Vec3 acceleration() const { return Vec3(force.x.total(), force.y.total(), force.z.total()) / mass.total(); }
 };
 
-/// The sums that move a material as a rigid body, over a patch.
+/// The variables on a patch from which the motion of a material as a rigid body follows.
 template <int D>
 struct RigidMotion {
   ParticleView<const Vec<D>> x;
@@ -55,7 +55,7 @@ void addPull(const Patch& patch, const RigidMotion<D>& u, Pull& pull) {
   });
 }
 
-/// v* = v + a dt at the nodes that particles touch.
+/// Computes v* = v + a dt at the nodes near particles.
 template <int D>
 void accelerate(ParticleView<const Vec<D>> x, int ghostNodes, const Vec<D>& change, NodeView<NodeRecord> record) {
   touchedRows<D>(x, ghostNodes).forEachRow(record.box(), [&](const Index3& first, int end) {
@@ -66,7 +66,7 @@ void accelerate(ParticleView<const Vec<D>> x, int ghostNodes, const Vec<D>& chan
 }
 
 /// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of the transmitted forces)
-/// / mass, whatever the conditions at the sides of the grid. `motions[patch][material]`.
+/// / mass, regardless of the conditions at the sides of the grid. The motions are indexed by patch, then by material.
 template <int D>
 void computeGridVelocityForFTM(const RankPatches& patches, const std::vector<Material>& materials,
                                const mpi::Communicator& ranks, int ghostNodes, double dt,

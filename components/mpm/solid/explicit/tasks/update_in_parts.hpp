@@ -8,7 +8,7 @@ namespace tushar::mpm::solid {
 // The two halves of interpolateToParticlesAndUpdate, for schedules that separate them: stresses first in the step, or
 // last with velocities interpolated to the grid once more.
 
-/// The variables with which x and v are updated in a step.
+/// Views of the variables with which x and v are updated in a step.
 template <int D>
 struct MotionUpdate {
   NodeView<const NodeRecord> record;
@@ -16,7 +16,7 @@ struct MotionUpdate {
   ParticleView<const Vec<D>> velocity;
   ParticleView<Vec<D>> newX, newVelocity;
 
-  /// `deformation` is an access of F.
+  /// `deformation` is the access to F.
   static MotionUpdate from(auto& take, int ghostNodes, KeptSizes keepsSizes, auto deformation) {
     return {.record = take(requiresNew(g::record, ghostNodes)),
             .particles = Placed<D>::from(take, keepsSizes, 0, deformation),
@@ -26,7 +26,7 @@ struct MotionUpdate {
   }
 };
 
-/// x_p and v_p at the end of the step.
+/// Computes x_p and v_p at the end of the step.
 template <class Shape, int D = Shape::dimension>
 void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, double dt, const MotionUpdate<D>& u) {
   forEachStencil<Shape>(patch, patch.cells(), u.particles, commonSize, [&](int p, const auto& stencil) {

@@ -15,7 +15,7 @@ inline int subcyclesForF(double squaredNorm, int least) {
   return std::min(std::max(least, 2 * static_cast<int>(std::sqrt(std::min(squaredNorm, 1e8)))), 10000);
 }
 
-/// F at the end of a step: (I + L dt/n)^n F in n steps.
+/// Computes F at the end of a step: (I + L dt/n)^n F in n steps.
 inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt, int n, Matrix3& result) {
   Rows rows(f);
   const double part = dt / n;
@@ -27,7 +27,7 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
-/// (I + L dt) F of `count` consecutive particles, with the same bits.
+/// Computes (I + L dt) F of `count` consecutive particles, with the same bits as for single particles.
 [[gnu::always_inline]] inline void deform(const Matrix3* f, const TensorOf<Lanes>& velocityGradient, double dt,
                                           int count, Matrix3* result) {
   const TensorOf<Lanes> before = lanesOf(f, count);
@@ -40,15 +40,15 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   storeLanes(now, result, count);
 }
 
-/// F at the end of a step: (sum_k (L dt)^k / k!) F, up to the power `order`.
+/// Computes F at the end of a step: (sum_k (L dt)^k / k!) F, up to the power `order`.
 inline void deformBySeries(const Matrix3& f, const Matrix3& velocityGradient, double dt, int order, Matrix3& result) {
   Matrix3 sum = Matrix3::Identity();
   for (int k = order; k > 0; --k) sum = Matrix3::Identity() + dt / k * velocityGradient * sum;
   result = sum * f;
 }
 
-/// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65
-/// (1986) 314.
+/// Computes x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys.
+/// 65 (1986) 314.
 template <int D>
 [[gnu::always_inline]] inline void moveParticle(double dt, const Gathered<D>& sums, const Vec<D>& x,
                                                 const Vec<D>& velocity, Vec<D>& newX, Vec<D>& newVelocity) {
@@ -62,7 +62,7 @@ template <int D>
                                              const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
   moveParticle<D>(dt, sums, *x, *velocity, *newX, *newVelocity);
 }
-/// The same for `count` consecutive particles.
+/// Moves `count` consecutive particles, as moveParticle moves one.
 template <int D>
 [[gnu::always_inline]] inline void moveGroup(double dt, const GatheredLanes<D>& sums, int count, const Vec<D>* x,
                                              const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
@@ -75,7 +75,8 @@ template <int D>
   storeVectors<D>(v, count, newVelocity);
 }
 
-/// F of a particle at the end of the step from its velocity gradient, the sum of whose squares is `square`, 1/s^2.
+/// Computes F of a particle at the end of the step from its velocity gradient; `square` is the sum of the gradient's
+/// squared components [1/s^2].
 template <int D>
 void deformBy(const Method& method, double dt, double square, const StateUpdate<D>& u, int p,
               const Matrix3& velocityGradient) {
@@ -86,7 +87,7 @@ void deformBy(const Method& method, double dt, double square, const StateUpdate<
   else
     deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
 }
-/// Completes a particle with a new F: restrains failed particles, and computes its volume.
+/// Completes the update of a particle with a new F: restrains failed particles, and computes its volume.
 template <int D>
 [[gnu::always_inline]] inline void finishDeformation(const Erosion& erosion, const StateUpdate<D>& u, int p,
                                                      Matrix3& velocityGradient) {
@@ -97,8 +98,8 @@ template <int D>
   if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
 }
 
-/// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p, in
-/// substeps, or with the terms of its series that the scene requests.
+/// Computes L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric), F_p = (I + L_p dt) F_p, in
+/// substeps or, if the scene requests it, by terms of the series of exp(L_p dt).
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
@@ -116,8 +117,8 @@ template <class Shape, int D = Shape::dimension>
   finishDeformation(erosion, u, p, velocityGradient);
 }
 
-/// The same in three dimensions for `count` particles starting with `first`, in the lanes; `velocityGradient` is of the
-/// first.
+/// Deforms `count` particles in three dimensions, starting with `first`, one per lane, as deformParticle deforms one;
+/// `velocityGradient` points to L of the first particle.
 [[gnu::always_inline]] inline void deformParticles(const Method& method, double dt, const GatheredLanes<3>& sums,
                                                    const Erosion& erosion, const StateUpdate<3>& u, int first,
                                                    int count, Matrix3* velocityGradient) {

@@ -9,7 +9,7 @@ namespace tushar::mpm::solid {
 
 // Optional updates after FLIP, which remove noise from the particles' velocities. The records hold v* and v.
 
-/// v_p = (1 - a) v_p^FLIP + a sum_i S_i v*_i: the PIC of Harlow, Meth. Comput. Phys. 3 (1964) 319, where a = 1.
+/// Computes v_p = (1 - a) v_p^FLIP + a sum_i S_i v*_i: the PIC of Harlow, Meth. Comput. Phys. 3 (1964) 319, if a = 1.
 template <class Shape, int D = Shape::dimension>
 void blendVelocity(const Patch& patch, const Material&, const Method& method, NodeView<const NodeRecord> record,
                    const Placed<D>& particles, ParticleView<Vec<D>> velocity) {
@@ -20,7 +20,7 @@ void blendVelocity(const Patch& patch, const Material&, const Method& method, No
   });
 }
 
-/// v+_p = sum_i S_i v_i, the velocity at the start of the step, filtered by the grid.
+/// Computes v+_p = sum_i S_i v_i, the velocity at the start of the step, filtered by the grid.
 template <class Shape, int D = Shape::dimension>
 void computeSSPlusVp(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const NodeRecord> record,
                      const Placed<D>& particles, ParticleView<Vec<D>> smooth) {
@@ -40,7 +40,7 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
   }
 }
 
-/// The XPIC correction for particles that have been moved by FLIP.
+/// Views for the XPIC correction of particles that have been moved by FLIP.
 template <int D>
 struct XpicUpdate {
   NodeView<const NodeRecord> smoothRecord;
@@ -48,7 +48,7 @@ struct XpicUpdate {
   ParticleView<const Vec<D>> oldVelocity, smooth;
   ParticleView<Vec<D>> newX, velocity;
 
-  /// `deformation` is an access of F.
+  /// `deformation` is the access to F.
   static XpicUpdate from(auto& take, int ghostNodes, KeptSizes keepsSizes, auto deformation) {
     return {.smoothRecord = take(requiresNew(g::smoothRecord, ghostNodes)),
             .particles = Placed<D>::from(take, keepsSizes, 0, deformation),
@@ -61,7 +61,7 @@ struct XpicUpdate {
 
 /// v_p = 2 v+_p - v++_p + a dt,   x_p += (v* - (v_p + a dt - 2 v+_p + v++_p) / 2) dt with v++_p = sum_i S_i v+_i, where
 /// v+_i is v+_p interpolated to the grid: XPIC of order 2, Hammerquist & Nairn, Comput. Methods Appl. Mech. Engng 318
-/// (2017) 724. The particles have moved by FLIP before; as in Uintah those of a rigid material stay with it.
+/// (2017) 724. The particles have already moved by FLIP; as in Uintah, those of a rigid material are not corrected.
 template <class Shape, int D = Shape::dimension>
 void applyXpic(const Patch& patch, const Material& material, const Vec3& commonSize, double dt,
                const XpicUpdate<D>& u) {
