@@ -31,7 +31,7 @@ double velocityAtEnd(const Level& level, int axis, int side, int material, const
   return isNumber ? given->value[level.axis(axis)] : inside[axis];
 }
 
-/// The number of materials before the gas of a component, which is the index of the gas in the scene.
+/// The number of bodies, which is also the index of the gas among the materials of the scene, since bodies come first.
 int bodiesOf(const simulation::Component& component);
 
 /// Throws InputError if the <material> of a module is not a gas of the component. The tag may be missing; as in Uintah,

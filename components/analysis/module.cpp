@@ -14,8 +14,8 @@ namespace tushar::modules {
 simulation::Catalogue analysis() {
   using namespace tushar::analysis;
   return {{},
-          {controlVolFluxesKind(), exactSolutionKind(), firstLawThermoKind(), lineExtractKind(), minMaxKind(), particleExtractKind(),
-           planeAverageKind(), planeExtractKind(), sliceKind(), vorticityKind()}};
+          {controlVolFluxesKind(), exactSolutionKind(), firstLawThermoKind(), lineExtractKind(), minMaxKind(),
+           particleExtractKind(), planeAverageKind(), planeExtractKind(), sliceKind(), vorticityKind()}};
 }
 
 }  // namespace tushar::modules

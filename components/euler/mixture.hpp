@@ -51,7 +51,7 @@ struct MixedGas {
 /// The largest number of gases.
 inline constexpr int kMostGases = 3;
 
-/// The laws of K gases.
+/// The laws of K gases that share cells.
 template <int K>
 struct Mixture {
   std::array<double, K> softness{}, stiffness{};

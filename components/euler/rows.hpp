@@ -47,7 +47,7 @@ Index3 blockOf(const Box& box) {
   return block;
 }
 
-/// A box as large as the largest block of a box.
+/// A box as large as the largest block into which forEachBlock divides `box`.
 template <int D>
 Box largestBlock(Box box) {
   const Index3 block = blockOf<D>(box);
@@ -185,7 +185,7 @@ void forEachStretch(const Box& box, const Box& held, Visit&& visit) {
   });
 }
 
-/// The State at place `i` of rows.
+/// The State at position `i` of rows.
 template <int D, std::size_t N>
 std::array<double, N> load(const std::array<double*, N>& rows, std::ptrdiff_t i) {
   std::array<double, N> state;

@@ -95,7 +95,7 @@ struct AirSection {
   std::optional<double> gasConstant;  ///< R, J/(kg K)
 };
 
-/// `MaterialProperties/ICE/material`.
+/// The tag `MaterialProperties/ICE/material`.
 struct GasMaterial {
   std::string name;
   EquationOfState state;

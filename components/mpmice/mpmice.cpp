@@ -221,7 +221,7 @@ void GasAround<D>::shareScalars(TaskList& tasks) const {
   }
 }
 
-/// Heat by exchange coefficients, and from outside.
+/// Adds the tasks for heat exchange by coefficients, and for heat from outside.
 template <int D>
 void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) const {
   const std::size_t gases = settings_.gases.size();

@@ -58,7 +58,7 @@ class GasAround : public mpm::solid::Surroundings {
   void shareScalars(TaskList& tasks) const;
 
   Settings settings_;
-  std::vector<std::shared_ptr<const ice::GasTotal>> totals_;  ///< of each of several gases
+  std::vector<std::shared_ptr<const ice::GasTotal>> totals_;  ///< totals of each gas, if there are several
   ice::CarriedScalars scalars_;
 };
 

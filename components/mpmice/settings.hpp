@@ -21,7 +21,7 @@ struct Burning {
 /// The internal variable of constitutive models with cracks, in which a body may burn.
 inline constexpr std::string_view crackRadiusLabel = "p.crackRad";
 
-/// How the gas around bodies diffuses.
+/// Diffusion coefficients of the gas around bodies.
 struct GasDiffusion {
   euler::VaryingDiffusion alone = {};  ///< diffusion of a single gas; for several gases, only the eddies
   /// Diffusion of each of several gases; a cell has the mean, weighted by volume fractions.
@@ -49,10 +49,10 @@ struct Settings {
   bool thinWalls = false;        ///< whether bodies thinner than a cell also block the gas
   bool areRigid = false;         ///< whether bodies keep their velocities, unaffected by the gas
   GasDiffusion diffusion = {};
-  std::optional<ice::IceSettings> implicit = {};  ///< if sound does not limit the steps
-  ice::Heating heating = {};                      ///< of the gases
-  std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
-  std::optional<Burning> burning = {};            ///< a body that burns
+  std::optional<ice::IceSettings> implicit = {};  ///< settings of implicit steps, if sound does not limit the steps
+  ice::Heating heating = {};                      ///< heating of the gases
+  std::vector<euler::Settings> gases = {};        ///< each gas, if several share cells; the first is `gas`
+  std::optional<Burning> burning = {};            ///< the body that burns, if any
   std::vector<ice::ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
 };
 

@@ -147,7 +147,8 @@ class WallExchange {
            step_.swept[above][axis];
   }
 
-  /// Gas follows a receding wall and is displaced by an approaching one, together with its mass, momentum and energy.
+  /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and
+  /// energy.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity, const euler::MixtureViews<D, double>& held,
             const euler::FaceMasses<D>& masses) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);

@@ -104,7 +104,7 @@ class ParticleSet {
   /// time.
   const TouchedRows& touched(int ghost, int dimension) const;
 
-  /// The ranges of consecutive cells along the first axis, from `cell` on.
+  /// The particle ranges of consecutive cells along the first axis, starting at `cell`.
   template <int D>
   const ParticleRange* row(const Index<D>& cell) const {
     return ranges_[rowOf(cell)] + (cell[0] - cells_.lower[0]);
@@ -124,7 +124,8 @@ class ParticleSet {
   /// Makes space for the particles of another set in `box` as ghosts. Afterwards several threads may call addGhosts,
   /// each for its own set.
   void openGhostRows(const grid::Box& box, const ParticleSet& theirs);
-  /// Declares the particles of another set in `box` as ghosts; that set begins `offset` places after this one.
+  /// Declares those particles of the set `theirs` that are in `box` as ghosts; `theirs` begins `offset` positions after
+  /// this set in memory.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
   /// Declares copies, which are stored from index `to` on, as the ghosts of `cell`. The originals are the particles
   /// `there` of the patch `patch`, in its cell `cell - shift`.
@@ -151,8 +152,9 @@ class ParticleSet {
 
   grid::Box owned_cells_, cells_;
   RowTable<ParticleRange> ranges_;
-  std::vector<Span> spans_;  ///< for each row along the first axis, the part outside which no cell contains particles
-  std::vector<Span> own_spans_;  ///< the same for the patch's own particles
+  /// For each row along the first axis, the smallest part that contains all cells with particles.
+  std::vector<Span> spans_;
+  std::vector<Span> own_spans_;  ///< the same, for the patch's own particles only
   std::vector<GhostRun> ghost_runs_;
   ParticleRange ghosts_;  ///< range from the first ghost to the end of the last one
   int owned_ = 0;

@@ -17,9 +17,9 @@ template <int D>
 void forEachRimFace(std::span<const grid::RimPiece> pieces, const grid::Box& faces, int axis,
                     FunctionRef<void(const Index<D>& face, std::size_t place)> visit);
 
-/// The fluxes of a variable through the faces of a patch at which its level ends: the amount per area and time, along
-/// the axis. None if there is one level, and where nothing needs them. Several tasks of a step each add their part;
-/// the sum is 0 before the first.
+/// The fluxes of a variable through those faces of a patch at which its level ends: the amount per unit area and time,
+/// along the axis. Empty on a single level, and if no task needs the fluxes. Several tasks of a step may each add a
+/// part; the sum starts at 0.
 template <class T>
 class RimFlux {
  public:

@@ -45,7 +45,7 @@ class Grid {
   const BlockTiling& tiling() const { return *blocks_; }
   /// The patches of all ranks.
   const Tiling& patchTiling() const { return *tiling_; }
-  /// Blocks that are always refined because of regions of the scene; may contain duplicates.
+  /// Blocks that are always refined because they lie in regions given by the scene; may contain duplicates.
   const std::vector<BlockId>& fixedBlocks() const { return fixed_blocks_; }
   /// Divides another tree into patches.
   std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
@@ -54,7 +54,7 @@ class Grid {
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares = {});
   /// The same for a grid of one level, which is cut elsewhere.
   std::unique_ptr<Tiling> recut(std::unique_ptr<Tiling> tiling, RankOffsets shares = {});
-  /// Cells of one of this rank's patches that were part of coarser ones before the last call of refine().
+  /// Cells of a patch of this rank that were part of coarser cells before the latest call of refine().
   const std::vector<Box>& newCells(int patch) const { return new_cells_[patch - first_patch_]; }
   /// The patches of this rank, in the order of their indices.
   const std::vector<Patch>& patches() const { return patches_; }

@@ -23,10 +23,10 @@ class BoundarySides;
 struct Domain {
   Vec3 lower = Vec3::Zero();
   Vec3 upper = Vec3::Ones();
-  Index3 resolution{{1, 1, 1}};  ///< cells along x, y, z
-  Index3 patches{{1, 1, 1}};     ///< along x, y, z
+  Index3 resolution{{1, 1, 1}};  ///< number of cells along x, y, z
+  Index3 patches{{1, 1, 1}};     ///< number of patches along x, y, z
   bool mayRecut = false;         ///< whether the cuts between patches may follow the particles (see Grid::recut)
-  Index3 periodic{};             ///< 1 along periodic axes
+  Index3 periodic{};             ///< 1 for periodic axes, otherwise 0
   int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic, for wide shape functions
   Refinement refinement;         ///< permitted refinement; none by default
   BoundaryConditions boundaries;

@@ -43,11 +43,11 @@ struct SchemaEntry {
   const SchemaBase* nested = nullptr;  ///< the schema that reads a nested tag
 
   SharedFunction<void(void* object)> setDefault;
-  /// Reads a value that is given at `where`; returns the problem with it, if any.
+  /// Reads a value given at `where`; returns a message if the value is invalid, otherwise an empty text.
   SharedFunction<std::string(void* object, const std::string& text, const Location& where)> assign;
-  /// Reads a nested tag; for Form::custom, the parent.
+  /// Reads a nested tag; for Form::custom, `element` is the parent.
   SharedFunction<void(void* object, const Element& element, Diagnostics& diagnostics)> fill;
-  /// The manual of the content of the tag.
+  /// Writes the manual of the content of the tag.
   SharedFunction<void(std::ostream& out, int indent)> describe;
 };
 
@@ -82,7 +82,7 @@ class SchemaBase {
   void describeContents(std::ostream& out, int indent = 0) const;
 
   using Fill = SharedFunction<void(void* object, const Element& element, Diagnostics& diagnostics)>;
-  /// Schema::custom and Schema::forms, for functions that do not need the object.
+  /// Like Schema::custom (and, below, Schema::forms), for functions that do not need the object.
   void addCustom(std::string_view name, Fill&& fill, std::vector<std::string>&& takes, std::string_view sentence,
                  SharedFunction<void(std::ostream&, int)>&& describeBelow = {});
   void setFormsOfLast(std::vector<TagForm> forms, int atLeast = 0);

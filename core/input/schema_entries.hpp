@@ -63,8 +63,8 @@ void storeIn(std::vector<T>& member, T value) {
 /// A constraint on a T.
 template <class T>
 struct Limit {
-  std::string allowed;  ///< `greater than 0`
-  /// Why a value, given as `text`, violates the constraint; empty if it does not.
+  std::string allowed;  ///< the constraint in words, such as `greater than 0`
+  /// Returns why a value, given as `text`, violates the constraint; empty if it does not.
   SharedFunction<std::string(const T& value, const std::string& text, const std::string& unit)> problem;
 };
 template <class T>

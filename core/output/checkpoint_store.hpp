@@ -28,13 +28,13 @@ class CheckpointStore {
     int lastOnDisk = -1;       ///< the step of another one that is not to be removed, unless the new one is on the disk
   };
 
-  /// `cycle` is the number of checkpoints to keep, at least 1. Nothing is made before the first write().
+  /// `cycle` is the number of checkpoints to keep, at least 1. No folder is made before the first write().
   explicit CheckpointStore(const std::filesystem::path& archive, int cycle, const Writers& writers = {});
 
   /// Writes a checkpoint: `fill` writes its files to the given folder, and returns those parts of them that are checked
-  /// while they are read. All ranks of the writers call it. Throws FileError on a rank that cannot, FailedElsewhere on
-  /// the others, or what `fill` throws, which must throw on all ranks if on any; no trace of the checkpoint is left
-  /// then.
+  /// while they are read. All writing ranks call it. Throws FileError on a rank that fails, FailedElsewhere on the
+  /// others, or any exception of `fill`, which must then throw on all ranks. After an exception, no part of the
+  /// checkpoint remains.
   void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill,
              const Pace& pace) const;
   void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill) const {
@@ -43,7 +43,7 @@ class CheckpointStore {
   /// Waits until a checkpoint is on the disk that write() did not bring there; removes those that are too many then. On
   /// rank 0.
   void bringToDisk(int step) const;
-  /// Makes the checkpoint of a step the latest, and removes those after it.
+  /// Makes the checkpoint of a step the latest one, and removes all later checkpoints.
   void goBackTo(int step) const;
 
   /// The folder of the checkpoint of a step.

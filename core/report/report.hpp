@@ -86,9 +86,10 @@ struct Report {
   Compression compression;
   TimeUse use;
   Rebalancing rebalancing;
-  int recuts = 0;                    ///< how often patches were cut elsewhere, to share particles evenly
-  std::vector<long> levels;          ///< cells of each level at the end, the coarsest first; 0 for a single level
-  double updates = 0;                ///< cell updates: the sum over steps of the cells of all levels
+  int recuts = 0;  ///< how often patches were cut elsewhere, to share particles evenly
+  /// Number of cells of each level at the end, the coarsest first; 0 for a single level.
+  std::vector<long> levels;
+  double updates = 0;                ///< cell updates: the number of cells of all levels, summed over the steps
   std::vector<double> levelUpdates;  ///< cell updates of each level; empty if all take the same steps
   double uniformUpdates = 0;         ///< number of cell updates if all cells were on the finest level
   int regrids = 0;                   ///< number of times that the grid was changed

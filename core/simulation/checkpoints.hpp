@@ -47,8 +47,8 @@ class Checkpoints {
 
   RunState& run_;
   Outputs& outputs_;
-  std::optional<CheckpointControl> control_;  ///< empty if the scene has none
-  int last_ = -1;                             ///< step of the last checkpoint that was written or read
+  std::optional<CheckpointControl> control_;  ///< when checkpoints are due; empty if the scene has none
+  int last_ = -1;                             ///< step of the checkpoint that was last written or read
   int on_disk_ = -1;                          ///< step of the last one that is known to be on the disk
   Clock::time_point next_wait_;               ///< when the next one is to wait for the disk
   double seconds_ = 0, memory_ = 0;

@@ -46,7 +46,7 @@ class Outputs {
   void finishOutput();
   /// Like finishOutput(); also updates the lists of the archive and the files of analysis modules.
   void flush();
-  /// The same for a checkpoint; returns the current extent of the archive.
+  /// Like flush(), for a checkpoint; returns the current extent of the archive.
   output::ArchivePoint sync(bool waitsForDisk);
 
   /// Skips the output times up to the current time.

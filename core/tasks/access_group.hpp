@@ -73,7 +73,7 @@ class BindEach {
 template <class Group, class From>
 struct GroupArgument {
   From from;
-  int first = 0;  ///< index of its first access among those of the task
+  int first = 0;  ///< index of the group's first access among those of the task
 
   template <bool makesParticles>
   void declareFor(std::vector<Access>& accesses) {
@@ -89,7 +89,7 @@ struct GroupArgument {
 template <class Group, class From>
 inline constexpr bool isOfMaterialAndPatch<GroupArgument<Group, From>> = true;
 
-/// The argument that `totals` makes.
+/// The argument made by the function `totals`.
 template <class Group, class From>
 struct TotalsArgument : GroupArgument<Group, From> {};
 

@@ -190,7 +190,8 @@ void Exchange::copyNear(const BoundGhostFill& fill, const GhostCopy& copy) {
   });
 }
 
-/// The destination of a copy: the patch, or the faces of its rim, for the values behind them.
+/// The destination of a copy: the values of the patch or, for fluxes, the second values of its rim faces, which contain
+/// the means from the finer side.
 CellValues Exchange::targetOf(const FilledValues& values, const GhostCopy& copy) const {
   const CellValues to = values.on(copy.to);
   if (copy.rim < 0) return to;

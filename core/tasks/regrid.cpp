@@ -259,7 +259,8 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
   return parts;
 }
 
-/// A distribution with equal costs on all ranks; none if there are only cells, which are distributed by number.
+/// The distribution with the most equal costs of ranks. Empty if there are no particles, because patches are then
+/// distributed by numbers of cells.
 grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::Tiling& next, const mpi::Communicator& ranks,
                            const Luggage& luggage, const PatchCosts& costs) {
   if (ranks.isAlone() || !luggage.hasMaterials()) return {};

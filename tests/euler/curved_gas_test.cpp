@@ -53,7 +53,7 @@ Gas attracted() {
   return gasOf(RealGas(
       {.gasConstant = 300, .specificHeat = 750, .attraction = 100, .covolume = 1e-3, .u = 2.414214, .w = -0.414214}));
 }
-/// JWL without its exponentials.
+/// The JWL law without its exponentials, which is an ideal gas.
 Gas idealByLaw() { return gasOf(CurvedGas({.density = 1}, 0.4, 716)); }
 
 struct Case {

@@ -60,7 +60,7 @@ GhostRules<D> ghostRulesOf(const Level& level, const Gas& first, const std::vect
   return withLawsOf<D>(ghostRules<D>(level, first, time), gases);
 }
 
-/// The views of the state of all gases together, and of each.
+/// The views of the joint state of all gases, and of the state of each.
 template <class T, int D, class Held>
 MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>& held) {
   MixtureViews<D, T> views{all, {}, {}};
@@ -83,7 +83,7 @@ using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>&
                                 const std::vector<NewGas>& newGases, const RimFluxes<D>& rims,
                                 const std::vector<GasRims>& gasRims);
 
-/// The body for a method and a number of gases: HLLC's flux, van Leer's slopes or none.
+/// The body of the task for a method and a number of gases, with the HLLC flux and van Leer's slopes or none.
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 

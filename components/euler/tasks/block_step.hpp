@@ -29,7 +29,7 @@ struct Work {
     const std::size_t room = roomOf(cells, reach);
     return {Rows<D, K>::unfilled(room), room, reach > 1, {}};
   }
-  /// Space for the planes, of up to `cells` cells, that a ColumnStep needs at a time.
+  /// Allocates space for the planes, with up to `cells` cells each, that a ColumnStep needs at a time.
   static Work ofColumns(std::size_t cells, int reach) {
     return {Rows<D, K>(cells, 2 * reach), cells, reach > 1, {1, 2}};
   }
@@ -102,7 +102,8 @@ void forEachPart(const Box& box, const Box& held, Visit&& visit) {
   forEachRow<D>(box, std::forward<Visit>(visit));
 }
 
-/// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.
+/// Computes the values at the faces of the cells of `box`, half a step later. It uses the rows of fluxes for
+/// intermediate values.
 template <int D, class G>
 void predict(const G&, const Level&, const Box&, double, Work<D, kGases<G>>&, Constant) {}
 template <int D, class Limited, class G>

@@ -50,8 +50,8 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// dt = cfl times the time in which the fastest wave of a body crosses a cell, because bodies move only once per step
-/// for the gas.
+/// Computes dt = cfl times the time in which the fastest wave of a body crosses a cell. This limit is needed because
+/// the gas sees bodies move only once per step.
 inline void limitStepOfBodies(const Patch&, double cfl, double stableTimeStep, Minimum& dt) {
   dt.add(cfl * stableTimeStep, "wave speed of bodies");
 }

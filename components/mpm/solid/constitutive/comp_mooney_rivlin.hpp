@@ -45,8 +45,8 @@ struct CompMooneyRivlin {
     const InvariantsOf<Real> i(f);
     return scaled(cauchyStress(i), i.j);
   }
-  /// d tau = 2 (C2 dI1 B + (C1 + I1 C2) dB - C2 (dB B + B dB) + (dW/dI3 + I3 d²W/dI3²) dI3 I) with dB = h B + B hᵀ,
-  /// dI1 = tr dB, dI3 = 2 I3 tr h
+  /// Computes the tangent d tau = 2 (C2 dI1 B + (C1 + I1 C2) dB - C2 (dB B + B dB) + (dW/dI3 + I3 d²W/dI3²) dI3 I) with
+  /// dB = h B + B hᵀ, dI1 = tr dB, dI3 = 2 I3 tr h.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3&, const State&) const {
     const Invariants i(d.deformationGradient);
     const double curvature = 6 * c3() / (i.third * i.third * i.third * i.third) + 2 * c4();
@@ -105,7 +105,7 @@ struct CompMooneyRivlin {
   };
   using Invariants = InvariantsOf<double>;
 
-  /// sigma = 2/J ((C1 + I1 C2) B - C2 B² + I3 dW/dI3 I)
+  /// Computes sigma = 2/J ((C1 + I1 C2) B - C2 B² + I3 dW/dI3 I).
   template <class Real>
   TensorOf<Real> cauchyStress(const InvariantsOf<Real>& i) const {
     TensorOf<Real> stress;

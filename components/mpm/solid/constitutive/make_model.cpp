@@ -7,7 +7,7 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// Thermal expansion of a model with this bulk modulus, Pa.
+/// Constructs a model, with thermal expansion if the material has any; `bulkModulus` is that of the model [Pa].
 template <class M>
 std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus, const Material& material) {
   if (material.thermalExpansion > 0)
@@ -16,7 +16,7 @@ std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus
   return std::make_shared<ModelOf<M>>(model);
 }
 
-/// The model of a material for use by its particles.
+/// Constructs the model of a material, for use by its particles.
 template <class M>
 std::shared_ptr<const Model> modelFrom(const M& model, const Material& material) {
   if constexpr (requires { model.yieldSpreads; })

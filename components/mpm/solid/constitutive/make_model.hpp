@@ -10,7 +10,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Whether a model has thermal expansion: as in Uintah, only neo-Hookean ones.
+/// Whether a model supports thermal expansion: as in Uintah, only neo-Hookean ones do.
 template <class M>
 inline constexpr bool expands =
     std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;

@@ -9,9 +9,9 @@
 
 namespace tushar::mpm::solid {
 
-/// Invariants of b = F Fᵀ minus those of I. An energy W of small strains e, written with them, has a relative error of
-/// 1e-16/e only, whatever the rotation: the terms linear in e, which cancel, are eliminated analytically. With G = b -
-/// I, g = (tr²G - tr G²)/2, r = J^(2/3) and d = r - 1: J² - 1 = tr G + g + det G = 3 d + 3 d² + d³.
+/// Invariants of b = F Fᵀ minus those of I. With these, the relative error of an energy W of small strains e is only
+/// 1e-16/e, whatever the rotation: the terms linear in e, which cancel, are eliminated analytically. With G = b - I, g
+/// = (tr²G - tr G²)/2, r = J^(2/3) and d = r - 1: J² - 1 = tr G + g + det G = 3 d + 3 d² + d³.
 template <class Real>
 struct StrainInvariantsOf {
   Real second;  ///< g
@@ -36,7 +36,7 @@ struct StrainInvariantsOf {
   Real isochoricSecond() const {
     return (distance() * distance() * (2 * root + 1) - second - 2 * third) / (root * root);
   }
-  /// ((J² - 1)/2 - ln J) / 2
+  /// The volumetric term ((J² - 1)/2 - ln J) / 2.
   Real dilatation() const {
     if constexpr (std::is_same_v<Real, Lanes>)
       return (volume - Lanes::of([&](int lane) { return std::log1p(volume[lane]); })) / 4;

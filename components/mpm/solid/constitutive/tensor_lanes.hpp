@@ -40,7 +40,7 @@ template <class Real>
   return even + odd + square[8];
 }
 
-/// The next Lanes::count of `count` consecutive tensors; missing ones repeat the last.
+/// Loads the next Lanes::count of `count` consecutive tensors; missing ones repeat the last one.
 [[gnu::always_inline]] inline TensorOf<Lanes> lanesOf(const Matrix3* tensors, int count) {
   const std::array<Lanes, 9> numbers =
       columnsOf<9>([&](int lane) { return tensors[count < Lanes::count ? std::min(lane, count - 1) : lane].data(); });

@@ -83,7 +83,8 @@ Vec<D> gradientOf(const Surfaces& surfaces, std::size_t m, const Index<D>& node)
   return surface.massGradient<D>();
 }
 
-/// The normal out of a body at a node, shared with the others there or its own; 0 if its mass has no gradient.
+/// The unit normal that points out of a body at a node, from the mass gradient of the body and, if Contact::oneNormal,
+/// from those of the other bodies; not normalised if it is nearly 0.
 template <int D>
 Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces& surfaces,
                 std::size_t m, const Index<D>& node) {

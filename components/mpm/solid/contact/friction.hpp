@@ -25,7 +25,7 @@ struct FrictionImpulse {
 template <int D>
 FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu);
 
-/// The surfaces of all materials, and the frictional heat (J) at their nodes, if the scene computes it.
+/// The surfaces of all materials, and the frictional heat [J] at their nodes, if the scene computes it.
 using Surfaces = std::vector<NodeView<const SurfaceRecord>>;
 using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 /// The rows of nodes that the particles of each material touch.

@@ -58,7 +58,7 @@ void addVectors(int count, VectorSum& total, VectorOf&& vectorOf) {
     of->mergeInto(*sum);
 }
 
-/// The sum of a particle variable.
+/// Computes the sum of a particle variable.
 inline void sumParticles(const Patch&, const Material&, ParticleView<const double> values, Sum& total) {
   addValues(values.owned(), total, [&](int p) { return values[p]; });
 }
@@ -69,7 +69,7 @@ inline void sumThermalEnergy(const Patch&, const Material& material, ParticleVie
   addValues(mass.owned(), total, [&](int p) { return mass[p] * material.specificHeat * temperature[p]; });
 }
 
-/// sum_p m_p v_p, kg m/s.
+/// Computes sum_p m_p v_p [kg m/s].
 template <int D>
 void sumMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
                  ParticleView<const Vec<D>> velocity, VectorSum& total) {

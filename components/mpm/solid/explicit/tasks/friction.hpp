@@ -20,7 +20,7 @@ struct SurfaceSources {
   Sizes<D> size;
   ParticleView<const double> mass;
   ParticleView<const Matrix3> deformation;
-  OptionalView<const Matrix3> particleStress;  ///< if the stress is not a function of F alone
+  OptionalView<const Matrix3> particleStress;  ///< stress, if it is not a function of F alone
   NodeView<SurfaceRecord> surface;
 
   static SurfaceSources from(auto& take, int reach, const Keeps& keeps) {
@@ -77,7 +77,7 @@ class MeetingPlaces {
   std::vector<std::uint8_t> bodies_;  ///< number of bodies at each node
 };
 
-/// A body continues beyond a symmetry plane: no gradient points through the plane, and the volume counts twice.
+/// Extends a body beyond symmetry planes: no gradient points through the plane, and the volume counts twice.
 template <int D>
 void mirrorSurface(const Patch& patch, const Material& material, NodeView<SurfaceRecord> surface);
 

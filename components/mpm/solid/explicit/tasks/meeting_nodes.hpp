@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The materials to which a plane may belong, and the preferred one.
+/// Which materials a plane may belong to, and which one is preferred.
 struct Precedence {
   std::vector<bool> mayLead, isRigid;
 
@@ -24,7 +24,8 @@ struct Precedence {
     }
   }
 
-  /// The material with the most mass of those that meet at a node, or the rigid one; -1 if fewer than two meet.
+  /// The index of the material with the most mass of those that meet at a node, or of the rigid one; -1 if fewer than
+  /// two meet.
   template <int D>
   int leader(const std::vector<NodeView<const NodeRecord>>& records, const Index<D>& node) const {
     double total = 0, most = 0, mostOfRigid = 1e-90;
@@ -48,18 +49,18 @@ struct Precedence {
   }
 };
 
-/// The nodes of a patch at which bodies meet, in their order.
+/// The nodes of a patch at which bodies meet, in lexicographic order.
 template <int D>
 struct MeetingNodes {
   Box box;
-  std::vector<int> number;  ///< for each node of the box, its index among those that follow, or -1
+  std::vector<int> number;  ///< for each node of the box, its index in the lists below, or -1
   std::vector<Index<D>> node;
-  std::vector<int> leader;  ///< the material that the plane belongs to
+  std::vector<int> leader;  ///< index of the material to which the plane belongs
   std::vector<std::vector<SidedParticle<D>>> particles;
 
   MeetingNodes(const Box& nodes, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
                const std::vector<NodeView<const NodeRecord>>& records);
-  /// The index of a node, or -1.
+  /// The index of a node in the lists; -1 if no bodies meet there.
   int operator[](const Index<D>& at) const { return box.contains(at) ? number[place(at)] : -1; }
 
  private:
@@ -70,8 +71,8 @@ struct MeetingNodes {
   }
 };
 
-/// The normal at the k-th of the nodes: 0 unless there are particles on both sides. None points through a symmetry
-/// plane.
+/// The normal at the k-th of these nodes: 0 unless there are particles on both sides. It never points through a
+/// symmetry plane.
 template <int D>
 Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k);
 

@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The space between the symmetry planes at the sides of the grid, m; infinite along axes without them.
+/// The space between the symmetry planes at the sides of the grid [m]; infinite along axes without such planes.
 template <int D>
 struct BetweenPlanes {
   Vec<D> lower = Vec<D>::Constant(-std::numeric_limits<double>::infinity()), upper = -lower;

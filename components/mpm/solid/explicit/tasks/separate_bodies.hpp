@@ -57,8 +57,8 @@ void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSour
   });
 }
 
-/// Prominence of material m: the largest extent of its particles along the normal if it is the reference body,
-/// otherwise the smallest.
+/// Computes the prominence of material m: the largest extent of its particles along the normal if the plane belongs to
+/// it, otherwise the smallest.
 template <class Shape, int D = Shape::dimension>
 void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const MeetingNodes<D>& nodes,
                        const std::vector<Vec<D>>& normals, const PlaneSources<D>& of) {

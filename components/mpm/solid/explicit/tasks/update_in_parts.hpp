@@ -40,7 +40,7 @@ struct StayInPlace {
   void operator()(int, int, const auto&) const {}
 };
 
-/// L_p, F_p and the stress, with the velocity in the records: Uintah's computeStressTensor.
+/// Computes L_p, F_p and the stress, with the velocity in the records: Uintah's computeStressTensor.
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                          const StateUpdate<D>& u) {

@@ -140,7 +140,7 @@ template <class Shape, int D = Shape::dimension>
   for (int k = 0; k < count; ++k) finishDeformation(erosion, u, first + k, velocityGradient[k]);
 }
 
-/// Whether several particles are updated at once: only in three dimensions do cells contain enough of them.
+/// Whether several particles are updated together: only in three dimensions do cells contain enough of them.
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
 

@@ -8,11 +8,11 @@ namespace {
 
 /// The results of a constitutive model for up to stressGroup particles, besides their stresses and wave speeds.
 struct StressResults {
-  std::array<double, stressGroup> bulkSpeed;      ///< m/s
-  std::array<double, stressGroup> energyDensity;  ///< J/m^3 of the volume at the start
+  std::array<double, stressGroup> bulkSpeed;      ///< bulk speed [m/s]
+  std::array<double, stressGroup> energyDensity;  ///< strain energy density [J/m^3 of the initial volume]
 };
 
-/// The positions and masses of the particles from `first` on, and the time, for a model that reads them.
+/// Passes the positions and masses of the particles from `first` on, and the time, to a model that reads them.
 template <int D>
 void placePoints(const Level& level, const StateUpdate<D>& u, double time, int first,
                  std::array<Vec3, stressGroup>& positions, StressPoints& points) {
@@ -22,7 +22,8 @@ void placePoints(const Level& level, const StateUpdate<D>& u, double time, int f
   points.time = time;
 }
 
-/// Particles starting with `first`, in the form for a constitutive model. `velocityGradient` is that of the first.
+/// The particles starting with `first`, in the form for a constitutive model. `velocityGradient` points to L of the
+/// first particle.
 template <int D>
 StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
                           double* waveSpeed, StressResults& results) {
@@ -43,7 +44,7 @@ StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* vel
           .strainEnergyDensity = u.strainEnergy ? results.energyDensity.data() : nullptr};
 }
 
-/// The work of the artificial viscosity when the volume per mass grows by `growth`, m^3/kg.
+/// Heats a particle by the work of the artificial viscosity while its volume per mass grows by `growth` [m^3/kg].
 template <int D>
 void heatByViscosity(const Material& material, double growth, const StateUpdate<D>& u, int p) {
   const double heat = -(*u.viscosity)[p] * growth;
@@ -56,7 +57,7 @@ void heatByViscosity(const Material& material, double growth, const StateUpdate<
 }
 
 /// Updates the artificial viscosity of particles starting with `first`, and its heat; the arrays of velocity gradients
-/// and bulk wave speeds (m/s) start with the first particle.
+/// and bulk wave speeds [m/s] start with the first particle.
 template <int D>
 void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<D>& u,
                      const Matrix3* velocityGradient, const double* bulkSpeed, int first, int count) {
@@ -74,8 +75,8 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
   }
 }
 
-/// Strain energy of particles starting with `first`, from its density (J/m^3 of the volume at F = I); 0 for failed
-/// particles.
+/// Computes the strain energy of particles starting with `first` from its density [J/m^3 of the volume at F = I]; 0 for
+/// failed particles.
 template <int D>
 void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
@@ -89,8 +90,8 @@ void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const
   }
 }
 
-/// Updates stress, artificial viscosity and strain energy of up to stressGroup particles, if kept, and computes their
-/// wave speeds, m/s.
+/// Updates stress, artificial viscosity and strain energy of up to stressGroup particles, if they are stored, and
+/// computes the wave speeds [m/s].
 template <int D>
 void updateStress(const Level& level, const Material& material, const Method& method, double time, double dt,
                   const StateUpdate<D>& u, const Matrix3* velocityGradient, int first, int count, double* waveSpeed) {

@@ -14,10 +14,10 @@ namespace tushar::mpm::solid {
 template <int D>
 struct MovedParticles {
   CellRun<D> cells;
-  std::vector<Matrix3> velocityGradient;  ///< at least of those of the cells
-  std::vector<double> waveSpeed;          ///< of as many
+  std::vector<Matrix3> velocityGradient;  ///< room for at least the particles of the cells
+  std::vector<double> waveSpeed;          ///< same size as velocityGradient
 
-  /// L of the particles of a cell that joins the run, 1/s.
+  /// Adds a cell; returns memory for L of its particles [1/s].
   Matrix3* add(const Index<D>& cell, const data::ParticleRange& range);
 };
 
