@@ -202,8 +202,8 @@ TEST(GasLaws, ConvergeToExactShockTubes) {
 
 TEST(HeatOfAir, IsThatOfTables) {
   // c_p/R of N2 and O2 at 298.15 K and 1000 K: 3.503, 3.533 and 3.933, 4.194 (M. W. Chase, NIST-JANAF tables, 1998).
-  // The polynomials give 3.496 for N2 at 298.15 K.
-  EXPECT_NEAR(HeatOfAir::specificHeat(298.15), (3.533 + 3.76 * 3.496) / 4.76 - 1, 2e-3);
+  // The polynomials fit the tables to .3 % of c_v.
+  EXPECT_NEAR(HeatOfAir::specificHeat(298.15), (3.533 + 3.76 * 3.503) / 4.76 - 1, 8e-3);
   EXPECT_NEAR(HeatOfAir::specificHeat(1000), (4.194 + 3.76 * 3.933) / 4.76 - 1, 8e-3);
   EXPECT_EQ(HeatOfAir::specificHeat(150), HeatOfAir::specificHeat(200));
   EXPECT_EQ(HeatOfAir::specificHeat(5000), HeatOfAir::specificHeat(3500));
