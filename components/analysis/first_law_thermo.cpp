@@ -85,12 +85,12 @@ MeasuredSide sideOf(const SideTag& tag, const Level& level, int axis) {
   return of;
 }
 
-/// The sides along axes that the grid has.
+/// The sides along axes that the grid has; periodic ones let nothing out.
 std::vector<MeasuredSide> sidesOf(const std::vector<SideTag>& tags, const Level& level) {
   std::vector<MeasuredSide> sides;
   for (const SideTag& tag : tags)
     for (int d = 0; d < level.dimension(); ++d)
-      if (level.axis(d) == tag.side / 2) sides.push_back(sideOf(tag, level, d));
+      if (level.axis(d) == tag.side / 2 && !level.isPeriodic(d)) sides.push_back(sideOf(tag, level, d));
   return sides;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/base/mpi_together.hpp"
 #include "core/output/archive_files.hpp"
 
 namespace tushar::output {
@@ -63,11 +64,16 @@ void CheckpointStore::write(int step, const std::function<std::vector<FilePart>(
 }
 
 void CheckpointStore::bringToDisk(int step) const {
-  for (const auto& entry : fs::directory_iterator(folder(step))) syncToDisk(entry.path());
-  syncToDisk(folder(step));
-  syncToDisk(folder_);
-  setLatest(step);
-  removeOldest(-1);
+  mpi::together(writers_.ranks(), [&] {  // each node has pages of its own
+    if (writers_.mine() < 0) return;
+    for (const auto& entry : fs::directory_iterator(folder(step))) syncToDisk(entry.path());
+  });
+  writers_.ranks().onFirst([&] {
+    syncToDisk(folder(step));
+    syncToDisk(folder_);
+    setLatest(step);
+    removeOldest(-1);
+  });
 }
 
 /// Removes the oldest of those that are more than the cycle, except one.

@@ -40,8 +40,8 @@ class CheckpointStore {
   void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill) const {
     write(step, fill, Pace{});
   }
-  /// Waits until a checkpoint is on the disk that write() did not bring there; removes those that are too many then. On
-  /// rank 0.
+  /// Waits until a checkpoint is on the disk that write() did not bring there; then removes those beyond the
+  /// cycle. Collective.
   void bringToDisk(int step) const;
   /// Makes the checkpoint of a step the latest one, and removes all later checkpoints.
   void goBackTo(int step) const;

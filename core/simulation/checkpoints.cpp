@@ -89,7 +89,8 @@ output::CheckpointStore Checkpoints::store() const {
 void Checkpoints::settle() {
   if (last_ == on_disk_) return;
   const auto started = Clock::now();
-  run_.ranks.onFirst([&] { store().bringToDisk(last_); });
+  run_.ranks.onFirst([&] { outputs_.sync(true); });
+  store().bringToDisk(last_);
   noteOnDisk(started);
   seconds_ += secondsSince(started);
 }

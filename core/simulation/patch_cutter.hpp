@@ -28,7 +28,7 @@ class PatchCutter {
  private:
   using Cuts = grid::MortonCurve::Cuts;
 
-  /// Whether cuts may move: not if the user has given them, not if values of nodes outlive a step, and not if a global
+  /// Whether cuts may move: not if `--layout` gives them, not if values of nodes outlive a step, and not if a global
   /// solve would round differently.
   bool mayCut() const;
   /// Threads of all ranks that pay off for the cells of the grid, if there are enough patches.

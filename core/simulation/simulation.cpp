@@ -123,13 +123,16 @@ void Simulation::begin() {
   if (run_.problem.restart) {
     outputs_.lockArchive();
     resume();
-    patch_cutter_.cutAtStart();
-    return rebalancer_.balanceAtStart();
+    return distributeAtStart();
   }
   initialize();
-  patch_cutter_.cutAtStart();
-  rebalancer_.balanceAtStart();
+  distributeAtStart();
   run_.totalsAtStart = run_.measureTotals(run_.phases.startTotals);
+}
+
+void Simulation::distributeAtStart() {
+  patch_cutter_.cutAtStart();
+  if (patch_cutter_.times() == 0) rebalancer_.balanceAtStart();  // cuts come with shares of their own
 }
 
 void Simulation::resume() {

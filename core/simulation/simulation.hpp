@@ -47,6 +47,7 @@ class Simulation {
  private:
   void openLog();
   void begin();
+  void distributeAtStart();
   void resume();
   void initialize();
   void initializeOnce();

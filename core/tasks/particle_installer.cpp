@@ -47,7 +47,8 @@ void ParticleInstaller::write(int number, std::size_t access, bool isRead, const
     onPatches([&](const grid::Patch&, ParticleMaker& maker) {
       if (maker.creates(access)) maker.drop(access, label);
     });
-  const bool isStart = !warehouse_->slots(Generation::old, number);
+  const int id = warehouse_->table().find(data::particleId.name, material_);  // of values that outlive each step
+  const bool isStart = !warehouse_->slots(Generation::old, id);
   if (isStart) warehouse_->releaseFreeMemory();  // of the values in the maker, which is larger than that of any step
 }
 
