@@ -35,7 +35,8 @@ SLIPS = {
                            "the member `material` is filled only if the model lists capability::ConstantsOfMaterial"),
     "HalfVectorized": ({"capability::BulkSpeed>": "capability::BulkSpeed, capability::Vectorized>",
                         "State initialState": "template <class Real> TensorOf<Real> kirchhoffStress(const "
-                        "TensorOf<Real>& f) const { return f; }\n  State initialState"},
+                        "TensorOf<Real>& f) const { return f; }\n  template <class Real> Real strainEnergyDensity("
+                        "const TensorOf<Real>&) const { return Real(); }\n  State initialState"},
                        "capability::Vectorized needs the public member `template <class Real> Real waveSpeed("),
     "HeatByValue": ({"capability::BulkSpeed>": "capability::BulkSpeed, capability::ViscousHeat>",
                      "State initialState": "void addViscousHeat(State, double) const {}\n  State initialState"},
