@@ -32,10 +32,10 @@ OVERRIDES = {
                                   "constitutive_model: an ideal_gas has no p_infinity; use type=\"stiffened_gas\""),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman",
                        "DataAnalysis/Module: name: found 'exactRieman', expected "
-                       "'burgersWave', 'controlVolFluxes', 'energyBudget', 'exactRiemann', 'exactSolution', 'gresho', "
-                       "'isentropicVortex', 'lineExtract', 'manufacturedError', 'massProjection', 'minMax', 'noh', "
-                       "'particleExtract', 'planeAverage', 'planeExtract', 'sedov', 'simpleWave', 'slice', 'tabulated' "
-                       "or 'vorticity' (did you mean 'exactRiemann'?)"),
+                       "'burgersWave', 'controlVolFluxes', 'energyBudget', 'exactRiemann', 'exactSolution', "
+                       "'firstLawThermo', 'gresho', 'isentropicVortex', 'lineExtract', 'manufacturedError', "
+                       "'massProjection', 'minMax', 'noh', 'particleExtract', 'planeAverage', 'planeExtract', 'sedov', "
+                       "'simpleWave', 'slice', 'tabulated' or 'vorticity' (did you mean 'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",
