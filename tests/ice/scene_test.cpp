@@ -140,10 +140,9 @@ TEST(IceScene, RefusesSolids) {
 }
 
 TEST(IceScene, RefusesOtherEquationsOfState) {
-  EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"TST\"><a>1</a></EOS>")),
-            "attribute 'type': found 'TST', expected 'ideal_gas', 'stiffened_gas', 'JWL', 'JWLC', 'Murnaghan', "
-            "'Gruneisen' or "
-            "'Thomsen_Hartka_water'");
+  EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"KnaussSeaWater\"><a>1</a></EOS>")),
+            "attribute 'type': found 'KnaussSeaWater', expected 'ideal_gas', 'stiffened_gas', 'JWL', 'JWLC', "
+            "'Murnaghan', 'Gruneisen', 'Thomsen_Hartka_water' or 'TST'");
 }
 
 TEST(IceScene, TellsWhichNumberOfAnEquationOfStateIsMissing) {
