@@ -16,8 +16,8 @@ class SharedObject {
 
   SharedObject() = default;
   template <class Object>
-  static SharedObject of(Object&& object) {
-    static_assert(alignof(Object) <= alignment && !std::is_reference_v<Object>);
+  static SharedObject of(Object object) {
+    static_assert(alignof(Object) <= alignment);
     return {::new (room(sizeof(Object))) Object(std::move(object)), destroyerOf<Object>()};
   }
   const void* get() const { return object_.get(); }
