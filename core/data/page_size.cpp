@@ -10,8 +10,8 @@ void adviseLargePages(void* memory, std::size_t bytes) { madvise(memory, bytes, 
 
 void adviseSmallPages(void* memory, std::size_t bytes) {
   constexpr std::uintptr_t page = 4096;
-  const auto start = reinterpret_cast<std::uintptr_t>(memory), first = start / page * page;
-  madvise(reinterpret_cast<void*>(first), start + bytes - first, MADV_NOHUGEPAGE);
+  const std::uintptr_t before = reinterpret_cast<std::uintptr_t>(memory) % page;
+  madvise(static_cast<std::byte*>(memory) - before, before + bytes, MADV_NOHUGEPAGE);
 }
 
 }  // namespace tushar::data
