@@ -100,9 +100,13 @@ class Memory(unittest.TestCase):
             solves = name in SOLVES
             steps = (FEW_SOLVES, MANY_SOLVES) if solves else (FEW, MANY)
             with self.subTest(name, ranks=ranks):
-                few, many = (self.after(count, name, ranks) for count in steps)
-                self.assertGreater(few, 0)
-                self.assertLessEqual(many, few + TOUCHED_LATE_BY_SOLVES if solves else MOST * few + TOUCHED_LATE,
+                for _ in range(3):  # memory that is lost is lost each time; pages touched by chance are not
+                    few, many = (self.after(count, name, ranks) for count in steps)
+                    self.assertGreater(few, 0)
+                    most = few + TOUCHED_LATE_BY_SOLVES if solves else MOST * few + TOUCHED_LATE
+                    if many <= most:
+                        break
+                self.assertLessEqual(many, most,
                                      f"{few / 1e6:.1f} MB after {steps[0]} steps, {many / 1e6:.1f} after {steps[1]}")
 
     def test_on_several_patches(self):
