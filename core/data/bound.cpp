@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/lanes.hpp"
+
 namespace tushar::data {
 
 namespace {
 
-/// A summary of many numbers, for checking them at once. Independent lanes, for vector instructions, are merged
-/// pairwise at the end.
+/// A summary of many numbers, for checking them at once, in several registers of lanes that do not wait for each other.
 template <bool SeeksLeast>
 class Look {
  public:
@@ -17,36 +18,47 @@ class Look {
 
   void add(const double* values, std::size_t count) {
     std::size_t k = 0;
-    for (; k + width <= count; k += width) addTo(0, width, values + k);
-    if (k + width / 2 <= count) {
-      addTo(0, width / 2, values + k);
-      k += width / 2;
-    }
-    addTo(width / 2, count - k, values + k);
+    if (count >= width) k = addGroups(values, count);
+    for (; k + Lanes::count <= count; k += Lanes::count) addTo(least_[0], sum_[0], Lanes::at(values + k));
+    for (; k < count; ++k) addTo(last_least_, last_sum_, values[k]);
   }
   /// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite. The least is computed only
   /// if it is needed; it is that of the numbers that are not NaN, and of 1.
-  bool surelyHolds(Bound bound) {
-    for (std::size_t half = width / 2; half > 0; half /= 2)
-      for (std::size_t lane = 0; lane < half; ++lane) {
-        lower(least_[lane], least_[lane + half]);
-        sum_[lane] += sum_[lane + half];
+  bool surelyHolds(Bound bound) const {
+    double least = last_least_, sum = last_sum_;
+    for (std::size_t k = 0; k < registers; ++k)
+      for (int lane = 0; lane < Lanes::count; ++lane) {
+        lower(least, least_[k][lane]);
+        sum += sum_[k][lane];
       }
-    return std::isfinite(sum_[0]) && (!SeeksLeast || (bound == Bound::positive ? least_[0] > 0 : least_[0] >= 0));
+    return std::isfinite(sum) && (!SeeksLeast || (bound == Bound::positive ? least > 0 : least >= 0));
   }
 
  private:
-  static constexpr std::size_t width = 16;
+  static constexpr std::size_t registers = 4, width = registers * Lanes::count;
+  using Registers = std::array<Lanes, registers>;
 
   static void lower(double& a, double b) { a = b < a ? b : a; }
-  void addTo(std::size_t first, std::size_t count, const double* values) {
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      if constexpr (SeeksLeast) lower(least_[first + lane], values[lane]);
-      sum_[first + lane] += values[lane];
-    }
+  static void lower(Lanes& a, Lanes b) { a = select(b < a, b, a); }
+  template <class Numbers>
+  static void addTo(Numbers& least, Numbers& sum, Numbers values) {
+    if constexpr (SeeksLeast) lower(least, values);
+    sum += values;
+  }
+  /// Adds all complete groups of `width` numbers; returns how many numbers these are.
+  std::size_t addGroups(const double* values, std::size_t count) {
+    Registers least = least_, sum = sum_;  // copies, which the loop keeps in registers of the processor
+    std::size_t k = 0;
+    for (; k + width <= count; k += width)
+#pragma GCC unroll 4
+      for (std::size_t r = 0; r < registers; ++r) addTo(least[r], sum[r], Lanes::at(values + k + r * Lanes::count));
+    least_ = least;
+    sum_ = sum;
+    return k;
   }
 
-  std::array<double, width> least_, sum_{};
+  Registers least_, sum_{Lanes(0.), Lanes(0.), Lanes(0.), Lanes(0.)};
+  double last_least_ = 1, last_sum_ = 0;
 };
 
 template <bool SeeksLeast>

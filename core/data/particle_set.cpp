@@ -10,7 +10,7 @@ void ParticleSet::reset(const grid::Patch& patch, int reach) {
   touched_.clear();
   owned_cells_ = patch.cells();
   cells_ = within;
-  ranges_.reset(cells_.rows(), static_cast<std::size_t>(cells_.extent(0)), {});
+  ranges_.reset(cells_.rows(), static_cast<std::size_t>(cells_.extent(0)));
   spans_.assign(cells_.rows(), none);
   own_spans_ = spans_;
   owned_ = 0;
@@ -36,14 +36,7 @@ void ParticleSet::setOwned(int count) {
 
 template <int D>
 void ParticleSet::forEachOccupied(const grid::Box& box, VisitCell<D> visit) const {
-  if (hasNone()) return;
-  grid::forEach<D>(box.rowStarts(), [&](Index<D> cell) {
-    const Span span = occupied(cell, box.upper[0]);
-    cell[0] = span.first;
-    const ParticleRange* range = row(cell);
-    for (; cell[0] < span.last; ++cell[0], ++range)
-      if (!range->empty()) visit(cell, *range);
-  });
+  forEachOccupiedInline<D>(box, visit);
 }
 template void ParticleSet::forEachOccupied(const grid::Box&, VisitCell<1>) const;
 template void ParticleSet::forEachOccupied(const grid::Box&, VisitCell<2>) const;

@@ -84,6 +84,9 @@ class ParticleSet {
   /// Calls `visit(cell, particles)` for the cells of a box that contain particles, in lexicographic order.
   template <int D>
   void forEachOccupied(const grid::Box& box, VisitCell<D> visit) const;
+  /// The same, compiled together with `visit`: for visits so short that a call for each cell would cost more than they.
+  template <int D, class Visit>
+  void forEachOccupiedInline(const grid::Box& box, const Visit& visit) const;
 
   /// A range of cells along the first axis, from `first` up to but excluding `last`.
   struct Span {
@@ -162,5 +165,17 @@ class ParticleSet {
   /// Touched rows for each number of ghost layers, up to the largest that was requested.
   mutable std::map<int, TouchedRows> touched_;
 };
+
+template <int D, class Visit>
+void ParticleSet::forEachOccupiedInline(const grid::Box& box, const Visit& visit) const {
+  if (hasNone()) return;
+  grid::forEach<D>(box.rowStarts(), [&](Index<D> cell) {
+    const Span span = occupied(cell, box.upper[0]);
+    cell[0] = span.first;
+    const ParticleRange* range = row(cell);
+    for (; cell[0] < span.last; ++cell[0], ++range)
+      if (!range->empty()) visit(std::as_const(cell), *range);
+  });
+}
 
 }  // namespace tushar::data

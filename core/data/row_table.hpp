@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -10,10 +11,14 @@ namespace tushar::data {
 template <class T>
 class RowTable {
  public:
-  /// Closes all of `rows` rows of `length` cells, whose value is `none`.
-  void reset(std::size_t rows, std::size_t length, const T& none) {
+  /// A table of cells whose value is `none`.
+  explicit RowTable(const T& none = {}) : none_(none) {}
+
+  /// Closes all of `rows` rows of `length` cells.
+  void reset(std::size_t rows, std::size_t length) {
     starts_.assign(rows, 0);
-    values_.assign(length, none);
+    values_.resize(std::min(values_.size(), length));  // of closed rows, whose values never change
+    values_.resize(length, none_);
     length_ = length;
   }
   bool isOf(std::size_t rows, std::size_t length) const { return starts_.size() == rows && length_ == length; }
@@ -37,13 +42,14 @@ class RowTable {
     const std::size_t start = values_.size();
     if (start + length_ > values_.capacity()) makeSpaceFor(start + start / 4 + length_);
     starts_[row] = start;
-    const T none = values_.front();
-    values_.resize(start + length_, none);
+    values_.resize(start + length_);
+    std::copy_n(values_.begin(), length_, values_.begin() + start);  // faster than copies of a single value
   }
 
   std::vector<std::size_t> starts_;  ///< for each row, the place of its first value; 0: the row that closed rows share
   std::vector<T> values_;
   std::size_t length_ = 0;
+  T none_;
 };
 
 }  // namespace tushar::data

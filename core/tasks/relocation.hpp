@@ -110,11 +110,11 @@ class Relocation {
     std::vector<Outgoing> outgoing;  ///< those departed particles that move to other patches
     std::vector<Incoming> incoming;  ///< particles that enter a cell of the patch
     std::vector<Arrival> arrivals;
-    data::RowTable<int> firstIncoming;  ///< by cell, or -1; rows that particles enter are open
-    std::vector<Run> runs;              ///< ascending
-    std::vector<Entry> entries;         ///< ascending
-    std::size_t packed = 0;             ///< index of the first departed particle among those of all patches
-    int count = 0;                      ///< number of particles in the new set
+    data::RowTable<int> firstIncoming{-1};  ///< by cell, or -1; rows that particles enter are open
+    std::vector<Run> runs;                  ///< ascending
+    std::vector<Entry> entries;             ///< ascending
+    std::size_t packed = 0;                 ///< index of the first departed particle among those of all patches
+    int count = 0;                          ///< number of particles in the new set
     std::optional<Escape> escape;
     LostParticles losing;
 

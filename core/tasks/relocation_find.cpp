@@ -137,7 +137,7 @@ void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
   const std::size_t length = cells.extent(0);
   if (moves.firstIncoming.hasOpenRows() || !moves.firstIncoming.isOf(cells.rows(), length))
-    moves.firstIncoming.reset(cells.rows(), length, -1);
+    moves.firstIncoming.reset(cells.rows(), length);
 }
 
 template <int D>
@@ -152,7 +152,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
   moves.losing = {};
   if (set.owned() == 0) return;
   const grid::Level& level = warehouse_->grid().finest();
-  set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
+  set.forEachOccupiedInline<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
     Vec<D> lower, upper;
     for (int d = 0; d < D; ++d) {
       lower[d] = level.nodePosition(d, cell[d]);
@@ -165,7 +165,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
   if (moves.departed.empty()) return;
   moves.incoming.reserve(moves.departed.size());
   std::size_t next = 0;
-  set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
+  set.forEachOccupiedInline<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
     for (; next < moves.departed.size() && moves.departed[next] < range.last; ++next) {
       const int p = moves.departed[next];
       move<D>(patch, cell, x[p], ids[p], static_cast<int>(next), moves);

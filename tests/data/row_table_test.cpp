@@ -5,8 +5,8 @@
 namespace tushar::data {
 
 TEST(RowTable, HasOneValueWhereNoRowIsOpen) {
-  RowTable<int> table;
-  table.reset(3, 4, -1);
+  RowTable<int> table(-1);
+  table.reset(3, 4);
 
   for (std::size_t row = 0; row < 3; ++row) {
     EXPECT_FALSE(table.isOpen(row));
@@ -17,7 +17,7 @@ TEST(RowTable, HasOneValueWhereNoRowIsOpen) {
 
 TEST(RowTable, AnOpenRowIsAloneInItsValues) {
   RowTable<int> table;
-  table.reset(100, 2, 0);
+  table.reset(100, 2);
   for (const std::size_t row : {70u, 3u}) table.open(row)[1] = static_cast<int>(row);
   table.open(70)[0] = 5;
 
@@ -31,19 +31,31 @@ TEST(RowTable, AnOpenRowIsAloneInItsValues) {
 
 TEST(RowTable, ForgetsItsRows) {
   RowTable<int> table;
-  table.reset(2, 2, 0);
+  table.reset(2, 2);
   table.open(1)[0] = 8;
-  table.reset(2, 2, 0);
+  table.reset(2, 2);
 
   EXPECT_FALSE(table.hasOpenRows());
   EXPECT_EQ(table[1][0], 0);
   EXPECT_EQ(table.open(1)[0], 0) << "nor does a row that is opened again remember";
 }
 
+TEST(RowTable, FillsRowsThatBecomeLonger) {
+  RowTable<int> table(-1);
+  table.reset(2, 2);
+  table.open(1)[1] = 8;
+  table.reset(2, 3);
+
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(table[0][k], -1);
+    EXPECT_EQ(table.open(1)[k], -1);
+  }
+}
+
 TEST(RowTable, KnowsItsSize) {
   RowTable<int> table;
   EXPECT_FALSE(table.isOf(2, 3));
-  table.reset(2, 3, 0);
+  table.reset(2, 3);
   EXPECT_TRUE(table.isOf(2, 3));
   EXPECT_FALSE(table.isOf(3, 2));
 }
