@@ -7,6 +7,7 @@
 #include "core/data/label.hpp"
 #include "core/data/reduction.hpp"
 #include "core/data/views.hpp"
+#include "core/data/wide_sum.hpp"
 #include "core/grid/grid.hpp"
 #include "core/simulation/component.hpp"
 #include "core/tasks/marks.hpp"

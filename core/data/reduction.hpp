@@ -99,23 +99,6 @@ struct Sum {
   std::vector<double> values() const { return {total()}; }
 };
 
-/// Adds numbers to a Sum in four independent lanes.
-class WideSum {
- public:
-  explicit WideSum(Sum& sum) : sum_(&sum) {}
-  WideSum(const WideSum&) = delete;
-  WideSum& operator=(const WideSum&) = delete;
-  ~WideSum() {
-    for (const Sum& lane : lanes_) sum_->merge(lane);
-  }
-  void add(double x) { lanes_[next_++ % lanes_.size()].add(x); }
-
- private:
-  std::array<Sum, 4> lanes_;
-  std::size_t next_ = 0;
-  Sum* sum_;
-};
-
 /// A sum of vectors with components x, y, z.
 struct VectorSum {
   Sum x, y, z;

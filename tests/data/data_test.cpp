@@ -61,6 +61,23 @@ TEST(Sum, IsTheSameInLanes) {
   EXPECT_EQ(plain.total(), wide.total());
 }
 
+TEST(Sum, TakesManyNumbersAtOnce) {
+  for (const int count : {0, 1, 7, 127, 128, 129, 1000}) {
+    Sum plain, wide;
+    {
+      WideSum lanes(wide);
+      plain.add(1e20);
+      lanes.add(1e20);
+      lanes.addAll(count, [](int k) { return 1.0 / (k + 1); });
+      for (int k = 0; k < count; ++k) plain.add(1.0 / (k + 1));
+      lanes.add(-1e20);
+      plain.add(-1e20);
+    }
+
+    EXPECT_EQ(plain.total(), wide.total()) << count;
+  }
+}
+
 TEST(Norm, HasMeanRootMeanSquareAndMaximum) {
   Norm norm, rest;
   norm.add(3, 10);

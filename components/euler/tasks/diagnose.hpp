@@ -5,12 +5,21 @@
 
 namespace tushar::euler {
 
+/// Adds a cell variable times the volume of the cells.
+template <int D>
+void sumOverCells(const Patch& patch, CellView<const double> values, Sum& total) {
+  WideSum sum(total);
+  const double volume = patch.level().cellVolume();
+  forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
+    const double* row = &values[first];
+    sum.addAll(count, [&](int k) { return volume * row[k]; });
+  });
+}
+
 /// Computes the mass in the patch [kg].
 template <int D>
 void sumMass(const Patch& patch, CellView<const double> density, Sum& mass) {
-  WideSum sum(mass);
-  const double volume = patch.level().cellVolume();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * density[cell]); });
+  sumOverCells<D>(patch, density, mass);
 }
 
 /// Computes the momentum in the patch [kg m/s].
@@ -29,9 +38,7 @@ void sumMomentum(const Patch& patch, CellView<const Vec<D>> momentum, VectorSum&
 /// Computes the internal and kinetic energy in the patch [J].
 template <int D>
 void sumEnergy(const Patch& patch, CellView<const double> totalEnergy, Sum& energy) {
-  WideSum sum(energy);
-  const double volume = patch.level().cellVolume();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * totalEnergy[cell]); });
+  sumOverCells<D>(patch, totalEnergy, energy);
 }
 
 /// Computes the kinetic energy in the patch [J].

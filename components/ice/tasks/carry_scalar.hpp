@@ -271,9 +271,7 @@ void computeScalar(const Patch& patch, CellView<const double> density, CellView<
 /// Computes the amount of a scalar on the patch [kg].
 template <int D>
 void sumScalar(const Patch& patch, CellView<const double> held, Sum& total) {
-  WideSum sum(total);
-  const double volume = patch.level().cellVolume();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * held[cell]); });
+  euler::sumOverCells<D>(patch, held, total);
 }
 
 }  // namespace tushar::ice

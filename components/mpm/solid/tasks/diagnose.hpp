@@ -2,60 +2,28 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/method.hpp"
-#include "core/base/quad.hpp"
 
 namespace tushar::mpm::solid {
-
-/// Does what WideSum does, to the same bits, with its lanes in registers.
-class QuadSum {
- public:
-  /// Adds four numbers, of which the last may be 0 at the end of a sum.
-  [[gnu::always_inline]] void add(Quad x) {
-    data::addExactly(value_, x);
-    data::addExactly(error_, x);
-    rest_ += x;
-  }
-  void mergeInto(Sum& sum) const {
-    for (int lane = 0; lane < 4; ++lane) sum.merge({value_[lane], error_[lane], rest_[lane]});
-  }
-
- private:
-  Quad value_{}, error_{}, rest_{};
-};
 
 /// Adds `valueOf(p)` of `count` particles.
 template <class ValueOf>
 void addValues(int count, Sum& total, ValueOf&& valueOf) {
-  QuadSum sum;
-  for (int p = 0; p < count; p += 4) {
-    Quad x{};
-    for (int lane = 0; lane < std::min(4, count - p); ++lane) x[lane] = valueOf(p + lane);
-    sum.add(x);
-  }
-  sum.mergeInto(total);
+  WideSum(total).addAll(count, valueOf);
 }
 
 /// Adds the vectors `vectorOf(p)`, along x, y and z, of `count` particles.
 template <class VectorOf>
 void addVectors(int count, VectorSum& total, VectorOf&& vectorOf) {
-  std::array<QuadSum, 3> sums;
-  for (int p = 0; p < count; p += 4) {
-    std::array<Quad, 3> x{};
-    for (int lane = 0; lane < std::min(4, count - p); ++lane) {
-      const Vec3 v = vectorOf(p + lane);
-      for (int axis = 0; axis < 3; ++axis) x[axis][lane] = v[axis];
-    }
-    for (int axis = 0; axis < 3; ++axis) sums[axis].add(x[axis]);
+  WideSum x(total.x), y(total.y), z(total.z);
+  for (int p = 0; p < count; ++p) {
+    const Vec3 v = vectorOf(p);
+    x.add(v[0]);
+    y.add(v[1]);
+    z.add(v[2]);
   }
-  for (auto [sum, of] : {std::pair(&total.x, &sums[0]), std::pair(&total.y, &sums[1]), std::pair(&total.z, &sums[2])})
-    of->mergeInto(*sum);
 }
 
 /// Computes the sum of a particle variable.

@@ -168,8 +168,7 @@ inline void measurePlasticWork(const Patch&, const Material& material, int state
 
 /// Computes the sum of one component of p.work over all particles.
 inline void sumWork(const Patch&, const Material&, int which, ParticleView<const p::Works> work, Sum& total) {
-  WideSum sum(total);
-  for (int p = 0; p < work.owned(); ++p) sum.add(work[p][which]);
+  WideSum(total).addAll(work.owned(), [&](int p) { return work[p][which]; });
 }
 
 }  // namespace tushar::mpm::solid
