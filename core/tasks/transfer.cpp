@@ -167,7 +167,7 @@ class Interpolation {
                   : interpolate<D, Components, false>(family, beside_, components_);
   }
 
-  /// All children of a row of cells, to the same bits.
+  /// All children of a row of cells; bitwise equal to the children of single cells.
   void ofRow(const Index3& first, const Index3& last) {
     const std::ptrdiff_t cell = Components > 0 ? Components : components_, count = (last[0] - first[0] + 1) * cell;
     thread_local std::vector<double> quarters;
