@@ -23,7 +23,7 @@ inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the 
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
     "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};
-/// Labels of a number for the walls at the lower faces of a cell, one along each axis, and of one for those at the
+/// A pair of labels, each with one number per axis: for the walls at the lower faces of a cell, and for those at the
 /// upper faces.
 template <int D>
 using OnWalls = std::array<CellLabel<Vec<D>>, 2>;

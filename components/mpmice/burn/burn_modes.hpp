@@ -9,7 +9,8 @@ namespace tushar::mpmice {
 struct StressedParticles {
   ParticleView<const double> mass;
   ParticleView<const mpm::solid::Matrix3> deformation;
-  std::optional<ParticleView<const mpm::solid::Matrix3>> stress;  ///< if it does not follow from the deformation
+  std::optional<ParticleView<const mpm::solid::Matrix3>>
+      stress;  ///< stress, if it does not follow from the deformation
   std::optional<ParticleView<const double>> state;
 
   static StressedParticles from(auto& take, bool keepsStress, bool burnsCracks, const ParticleLabel<double>* state) {
@@ -20,13 +21,13 @@ struct StressedParticles {
   }
 };
 
-/// Whether the solids store the stress of a body, which does not follow from its deformation.
+/// Whether the solids store the stress of a body because it does not follow from the deformation.
 inline bool keepsStress(const mpm::solid::Material& material) {
   return material.isDamageable() || !material.model->dependsOnDeformationOnly();
 }
 
-/// Finds the mean pressure, Pa, of the body that burns in each cell, and its widest cracks, m; 0 where it is not, or
-/// cracks do not burn.
+/// Computes for each cell the mean pressure of the burning body [Pa], and the radius of its widest crack [m]. Both are
+/// 0 in cells without the body; the radius is also 0 if cracks do not burn.
 template <int D>
 void measureLoad(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                  int stateSize, const std::vector<StressedParticles>& bodies, CellView<double> pressure,

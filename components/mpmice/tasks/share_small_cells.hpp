@@ -62,8 +62,8 @@ class SmallCells {
     });
   }
 
-  /// Calls `visit(member)` for the cells that share their content through a target, the target first; returns whether
-  /// a cell, which has this target, shares with others.
+  /// Calls `visit(member)` for the cells that share their content through the target `centre`, which comes first.
+  /// Returns whether `cell`, whose target this is, shares with others.
   template <class Visit>
   bool forEachInPool(const Index<D>& cell, const Index<D>& centre, Visit&& visit) const {
     visit(centre);
