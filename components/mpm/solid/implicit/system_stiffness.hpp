@@ -63,7 +63,7 @@ void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Mat
     }
 }
 
-/// The row of ln det F: its change for a unit displacement of each node near a point [1/m].
+/// The change of ln det F for a unit displacement of each node near a point [1/m].
 template <int D>
 auto ImplicitSystem<D>::volumeRow(std::size_t point) const -> Rows {
   const Matrix3 inverse = (Matrix3::Identity() + states_.gradient[point]).inverse().transpose();

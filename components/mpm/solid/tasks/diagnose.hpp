@@ -13,7 +13,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Does what WideSum does, to the same bits, with its lanes in registers.
+/// Like WideSum, with its lanes in registers; the sums are bitwise equal.
 class QuadSum {
  public:
   /// Adds four numbers, of which the last may be 0 at the end of a sum.
