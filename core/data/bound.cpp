@@ -24,8 +24,8 @@ class Look {
     }
     addTo(width / 2, count - k, values + k);
   }
-  /// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite. The least is computed only
-  /// if it is needed; it is that of the numbers that are not NaN, and of 1.
+  /// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite. The smallest number is
+  /// computed only if it is needed: the smallest of 1 and all numbers that are not NaN.
   bool surelyHolds(Bound bound) {
     for (std::size_t half = width / 2; half > 0; half /= 2)
       for (std::size_t lane = 0; lane < half; ++lane) {

@@ -134,14 +134,15 @@ Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
 }
 
-/// Whether a draft collects this instead of a file.
+/// If a draft collects the content instead of a file, adds a text to its form and returns true.
 bool Hdf5File::isDrafted(const std::string& text) const {
   if (!draft_ || !draft_->collects()) return false;
   draft_->share(text);
   return true;
 }
 
-/// The same for a number by which files may differ, which a draft may also mark.
+/// Like the function above, for a number by which files may differ; the draft records the number, or replaces it by a
+/// mark.
 template <class Number>
 bool Hdf5File::isDrafted(const std::string& object, const char* name, Number& value) const {
   const bool collects = isDrafted(object + " " + name);

@@ -57,7 +57,7 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
 /// Whether a variable contains fluxes, which exist only during a step.
 bool isOfRims(const std::string& name) { return name.starts_with("rim."); }
 
-/// The variables of a step that the next step needs, except those that are computed anew before each step. Includes the
+/// The variables of a step that the next step needs, except those that are recomputed before each step. Includes the
 /// ids of particles if there are particles.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
   std::erase_if(needed, [&](const std::string& name) {
