@@ -216,8 +216,8 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   for (const ice::ScalarSettings& one : scene.scalars)
     if (one.diffusivity > 0)
       diagnostics.error(one.where, "Models/Model",
-                        fmt::format("{:g} m^2/s is not available with bodies: there scalars are carried, but do not "
-                                    "diffuse; set it to 0",
+                        fmt::format("{:g} m^2/s is not available with bodies: next to them, scalars are transported, "
+                                    "but do not diffuse; set it to 0",
                                     one.diffusivity));
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",

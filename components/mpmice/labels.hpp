@@ -119,7 +119,7 @@ inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of 
 inline constexpr CellLabel<double> burnMode{
     "c.burnMode", "1", "mode of burning: 0 none, 1 at the surface, 2 in cracks, 3 waiting for a flame"};
 inline constexpr CellLabel<double> burnPressure{"c.burnPressure", "Pa", "pressure at which the body burns"};
-inline constexpr CellLabel<double> waited{"c.waited", "s", "time for which a flame has been beside the cell"};
+inline constexpr CellLabel<double> waited{"c.waited", "s", "time for which a flame has been next to the cell"};
 inline constexpr CellLabel<double> inductionTime{"c.inductionTime", "s", "time that the cell waits before it burns"};
 inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "fraction of c.reactantMass that burns in the step"};
 inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};

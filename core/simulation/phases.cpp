@@ -187,8 +187,8 @@ std::vector<std::string> Phases::remarksOn(const SaveRequest& save) const {
   for (const int number : numbersIn(save.material))
     if (number == count)
       remarks.push_back(
-          fmt::format("in Uintah material {} means all materials together; here '{}' is saved for each of them", number,
-                      save.label));
+          fmt::format("in Uintah, material {} means all materials together; here, '{}' is saved for each of them",
+                      number, save.label));
     else if (number > count)
       remarks.push_back(fmt::format("does nothing for {}: materials are numbered from 0 to {}", number, count - 1));
   return remarks;

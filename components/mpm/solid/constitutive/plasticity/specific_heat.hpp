@@ -68,7 +68,8 @@ struct SteelHeat {
   static const input::Schema<SteelHeat>& schema() {
     using Self = SteelHeat;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("specific_heat_model", "For steel, with the peak at the transition of iron.")
+        input::Schema<Self>("specific_heat_model",
+                            "For steel: a formula with a peak at the transition temperature of iron.")
             .value("T_transition", &Self::transition, 1040, "K", "T_c, where t = T/T_c - 1 is 0", input::positive())
             .value("A_LowT", &Self::a0, 190.14, "J/(kg K)", "constant part below the transition")
             .value("B_LowT", &Self::b0, 273.75, "J/(kg K)", "factor of t below the transition")
