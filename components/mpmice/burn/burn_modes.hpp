@@ -182,8 +182,8 @@ class BurnModes {
     });
     return found;
   }
-  /// Whether the surface of the body passes through a face of the cell: the masses at its nodes differ by more than 30
-  /// %.
+  /// Whether the surface of the body passes through a face of the cell: there, the areas of the cells on both sides
+  /// differ by more than 0.3 (see SurfaceAtFaces).
   bool isExposed(const Index<D>& cell) const {
     constexpr double least = 0.3;
     for (int d = 0; d < D; ++d) {
@@ -195,8 +195,8 @@ class BurnModes {
   }
   static bool burns(BurnMode mode) { return mode == BurnMode::surface || mode == BurnMode::cracks; }
 
-  /// Determines the mode of a cell with an induction time: it waits from the first step in which there is a flame
-  /// beside it.
+  /// Determines the mode of a cell with an induction time: it waits from the first step in which there is a flame next
+  /// to it.
   Found wait(const Index<D>& cell, const Conditions& now, const Waited& before, double dt) const {
     const bool burned = burns(before.modeIn(cell));
     const Flame flame = burned ? Flame{1, before.modeIn(cell)} : flameInto(cell, now, before);
