@@ -16,8 +16,8 @@ constexpr std::array<double, 5> ofAir(const std::array<double, 5>& oxygen, const
 
 /// The specific heat of air (1 mol of O2 with 3.76 mol of N2), divided by its gas constant: c_p/R = a_0 + a_1 T + … +
 /// a_4 T^4 for O2 and N2, weighted by mole fractions. Valid from 200 to 3500 K; below and above, c_v keeps its value at
-/// the nearer limit. Energies are measured from 0 K. Source of the coefficients: B. J. McBride, S. Gordon & M. A. Reno,
-/// NASA TM 4513 (1993), as in G. P. Smith & al., GRI-Mech 3.0 (1999).
+/// the nearer limit. Energies are measured from 0 K. Source of the coefficients:
+/// B. J. McBride, S. Gordon & M. A. Reno, NASA TM 4513 (1993), as in G. P. Smith & al., GRI-Mech 3.0 (1999).
 class HeatOfAir {
   using Polynomial = std::array<double, 5>;
 

@@ -9,7 +9,7 @@
 #include "core/simulation/simulation.hpp"
 #include "tests/ranks/ranks.hpp"
 
-// The same bits on any ranks, threads and patches.
+// Results are bitwise equal on any ranks, threads and patches.
 
 namespace tushar::simulation {
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An interrupted and restarted run equals an uninterrupted one: same bits and archive, on any patches."""
+"""An interrupted and restarted run equals an uninterrupted one: bitwise equal results, equal archives, on any patches."""
 import pathlib
 import re
 import sys
