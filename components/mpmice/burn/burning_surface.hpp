@@ -20,7 +20,7 @@ class SurfaceAtFaces {
       : level_(level), cells_(cells), space_(level, settings, cells) {}
 
   const FreeSpace<D>& space() const { return space_; }
-  /// The area along the axis of the cell below a face, minus that of the cell above.
+  /// The area along the axis in the cell below a face, minus the area in the cell above.
   double step(const Index<D>& above, int axis) const {
     return space_.faces(above - Index<D>::unit(axis), axis).area - space_.faces(above, axis).area;
   }

@@ -46,7 +46,8 @@ void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, co
   });
 }
 
-/// Makes each cell constant that has a body in it or next to it, as well as its images outside the grid.
+/// Makes the state constant in each cell that has a body in it or next to it, and in the images of such cells outside
+/// the grid.
 template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D, K>& work) {
