@@ -130,7 +130,7 @@ void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& ma
   if (shares) addSharedStiffness(run, forces, matrix);
 }
 
-/// Adds the stiffness of the points of a run against their common change of volume.
+/// Adds the stiffness with which the points of a run resist a common change of volume.
 template <int D>
 void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces,
                                            solvers::Matrix& matrix) const {
