@@ -154,7 +154,7 @@ class UintahsWords(unittest.TestCase):
         kept = "<interpolateParticleTempToGridEveryStep>false</interpolateParticleTempToGridEveryStep>"
         self.assertNotIn("first step", checked(kept).err)
         conducting = checked(kept + "<DoImplicitHeatConduction>true</DoImplicitHeatConduction>").err
-        self.assertIn("not from those in the first step, as in Uintah", conducting)
+        self.assertIn("in Uintah, from those in the first step", conducting)
         self.assertEqual(checked("<DoMechanics>true</DoMechanics>").code, 0)
         refused = checked("<DoMechanics>false</DoMechanics>")
         self.assertEqual(refused.code, 3)
