@@ -9,7 +9,7 @@ namespace {
 // bash splits a word at = : and @, and replaces only the last part; so _sus_offer leaves out the parts before it.
 constexpr const char* script = R"script(# Completion of sus in bash: source <(sus --completion bash)
 
-# Offers those of the words, a line each, that go on with what has been typed.
+# Offers the words, one per line, that begin with what has been typed.
 _sus_offer() {
   local typed=$1 before one
   before=${typed%"${typed##*[=:@]}"}

@@ -65,11 +65,11 @@ void printSchema(const std::string& language, const simulation::Catalogue& known
       "other,\n     or which labels and materials exist. sus --check SCENE checks all of that.",
       TUSHAR_VERSION, language);
   if (language == "rng") return input::writeRelaxNg(std::cout, scene, comment + " ");
-  input::writeXmlSchema(std::cout, scene,
-                        comment +
-                            "\n     XSD 1.0 cannot describe either which tags are required, and how often, since they "
-                            "may have any order,\n     or what depends on a type, a name, or the component: a tag may "
-                            "contain whatever any of them allows. ");
+  input::writeXmlSchema(
+      std::cout, scene,
+      comment +
+          "\n     Nor can XSD 1.0 describe which tags are required and how often, since tags may be in any order,\n    "
+          " or what depends on a type, a name, or the component: a tag may contain whatever any of them allows. ");
 }
 
 /// Prints the paths of all values in a scene; `given` is the scene or the folder of a run.

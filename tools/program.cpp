@@ -203,7 +203,7 @@ ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
   return runScene(arguments, open(arguments.modules), startedAt, session->ranks());
 }
 
-/// What the user is told about a failure, and the exit code.
+/// The message to the user about a failure, and the exit code.
 struct Failure {
   std::string text;
   ExitCode code = ExitCode::failure;

@@ -7,7 +7,7 @@
 #include "core/collect/gather.hpp"
 #include "core/input/schema.hpp"
 
-// Lines and planes between two points, as lineExtract and planeExtract have them.
+// Lines and planes between two points, for lineExtract and planeExtract.
 
 namespace tushar::analysis {
 
@@ -73,7 +73,7 @@ int axisOf(const Extent& line);
 /// The index of a cell along x, y, z; 0 along the axes that the grid does not use.
 Index3 sceneIndex(const Index3& cell, const grid::Level& level);
 /// The position of a cell [m]: its centre or, if `isCorner`, its lower corner. Along the axes that the grid does not
-/// use, it is the middle of the domain. `coarser` has the meaning that it has for cellsOf.
+/// use, it is the middle of the domain. `coarser` has the same meaning as for cellsOf.
 Vec3 placeOf(const Index3& cell, bool isCorner, const grid::Level& level, int coarser = 0);
 
 }  // namespace tushar::analysis

@@ -70,7 +70,7 @@ const input::Schema<FirstLawSettings>& firstLawSchema() {
   return schema;
 }
 
-/// The cells of the finest level at a side; of a part of one, those whose centre lies between its corners.
+/// The cells of the finest level at a side; for a part of a side, those whose centres lie between its corners.
 MeasuredSide sideOf(const SideTag& tag, const Level& level, int axis) {
   MeasuredSide of{axis, tag.side % 2, level.cells()};
   (of.side == 0 ? of.cells.upper[axis] : of.cells.lower[axis]) =
@@ -85,7 +85,7 @@ MeasuredSide sideOf(const SideTag& tag, const Level& level, int axis) {
   return of;
 }
 
-/// The sides along axes that the grid has; periodic ones let nothing out.
+/// The sides normal to axes that the grid uses; nothing leaves through periodic sides.
 std::vector<MeasuredSide> sidesOf(const std::vector<SideTag>& tags, const Level& level) {
   std::vector<MeasuredSide> sides;
   for (const SideTag& tag : tags)

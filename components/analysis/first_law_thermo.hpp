@@ -5,24 +5,25 @@
 
 namespace tushar::analysis {
 
-/// `firstLawThermo`: the internal energy of gas and bodies over time, and the energy that leaves through sides of the
-/// grid, in `1stLawThermo.dat` of the archive, where Uintah writes it. A line has the time [s], the internal energy of
-/// the gas, mass times specific heat times temperature of bodies, both together [J], and the flow [W] through the sides
-/// or their parts that the module names: of internal and kinetic energy and of the work of the pressure.
+/// `firstLawThermo`: writes the internal energy of gas and bodies, and the energy that leaves through sides of the
+/// grid, over time. They are in `1stLawThermo.dat` in the archive, where Uintah writes it. A line has the time [s]; the
+/// internal energy of the gas, that of the bodies (mass times specific heat times temperature), and their sum [J]; and
+/// the energy flow [W] through the sides, or parts of sides, that the module names. This flow consists of internal
+/// energy, kinetic energy and the work of the pressure.
 simulation::AnalysisKind firstLawThermoKind();
 
-/// A side of the grid of which a flow is measured: the faces of these cells.
+/// A side of the grid through which the flow is measured: the faces of these cells.
 struct MeasuredSide {
   int axis = 0, side = 0;
   Box cells;
 };
 
-/// What addOutflow reads.
+/// The views that addOutflow reads.
 template <int D>
 struct OutflowViews {
   CellView<const double> totalEnergy, pressure;
   CellView<const Vec<D>> velocity;
-  std::optional<CellView<const double>> free;  ///< beside bodies, the share of the gas
+  std::optional<CellView<const double>> free;  ///< volume fraction of the gas, if there are bodies
 };
 
 /// Adds the flow of energy out through sides of the grid [W]: the normal velocity of the adjacent cells, or that given

@@ -8,7 +8,7 @@
 #include "core/input/document.hpp"
 #include "core/simulation/component.hpp"
 
-// The fields that modules sample where the variables of a gas belong to no material.
+// The fields that modules sample if the variables of a gas belong to no material.
 
 namespace tushar::analysis {
 
@@ -19,8 +19,8 @@ std::optional<bool> isDerived(const simulation::Component& component, std::strin
 /// Whether diagnostics compute a total of this name.
 bool computesTotal(const simulation::Component& component, std::string_view label);
 
-/// The velocity along an axis at a side of a cell that is also a side of the grid: that given there, or that of the
-/// gas inside, m/s.
+/// The velocity along an axis at a side of a cell that is also a side of the grid: the velocity given there or, if none
+/// is given, that of the gas inside [m/s].
 template <int D>
 double velocityAtEnd(const Level& level, int axis, int side, int material, const Vec<D>& inside,
                      int part = grid::restOfSide) {

@@ -29,7 +29,7 @@ double faceFlux(const std::array<double, 4>& u, Slope slope, double viscosityOve
   return godunovFlux(left, right) - viscosityOverSpacing * (u[2] - u[1]);
 }
 
-/// The flux through a face of a cell along the axis; side 0 is the lower face.
+/// The flux along the axis through a face of a cell; side 0 is the lower face.
 template <int D>
 double fluxThrough(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
                    CellView<const double> u, const Index<D>& cell, int d, int side) {

@@ -36,7 +36,7 @@ class BurgersWave {
   double at(double x, double t) const;
   /// Mean of u over [lower, upper] [m]. Throws the same exceptions as at().
   double average(double lower, double upper, double t) const;
-  /// Whether the solution is available at time `t` [s]. It is not before t = 0, nor as long as viscosity has spread
+  /// Whether the solution is available at time `t` [s]. It is not available before t = 0, nor as long as viscosity acts
   /// over less than the table resolves, (2 nu t)^(1/2) < 2 steps.
   bool holdsAt(double t) const;
 

@@ -14,9 +14,9 @@ namespace tushar::euler {
 
 /// A non-reflecting side, which slowly relaxes the pressure to a far-field value. With the normal n outwards, the
 /// incoming characteristic p - rho c u_n changes at the rate -K (p - p_far), where K = sigma (1 - M²) c / L and L is
-/// the length of the grid across the side. Therefore, it is smaller beyond the side by (p - p_far) sigma (1 + M) h / L.
-/// Sources: T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; for K, D. H. Rudy & J. C. Strikwerda, J. Comput.
-/// Phys. 36 (1980) 55.
+/// the length of the grid along n. Beyond the side, the characteristic is therefore smaller by (p - p_far) sigma (1 +
+/// M) h / L. Sources: T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; for K, D. H. Rudy & J. C. Strikwerda,
+/// J. Comput. Phys. 36 (1980) 55.
 struct Relaxation {
   double farPressure = 0;  ///< far-field pressure [Pa]; 0: none
   double sigma = 0;
@@ -44,7 +44,7 @@ struct GhostRule {
   double temperature = 0;        ///< if greater than 0, the temperature of a gas with its own law [K]
   const Gas* gas = nullptr;      ///< the gas with its own law
   Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
-  Mixture<kMostGases> laws;      ///< of several gases, for that relaxation
+  Mixture<kMostGases> laws;      ///< laws of several gases, used by the relaxation
 };
 
 /// The rules of a side: a rule for each of its parts and, as the base class, the rule for the rest of the side.
@@ -117,8 +117,9 @@ GhostRules<D> withLaws(GhostRules<D> rules, const Mixture<K>& laws) {
   return rules;
 }
 
-/// Like ghostRules, for differences across the sides, of velocities and temperatures (which replace the densities):
-/// given values apply at the side itself, and the others are mirrored. Formulas count in the middle of each face.
+/// Like ghostRules, but for differences of velocity and temperature across the sides; temperatures replace densities.
+/// Given values apply at the side itself, and other values are mirrored. Formulas are evaluated at the centre of each
+/// face.
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
 
@@ -127,8 +128,8 @@ GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0
 template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 
-/// Fills the cells of a box that are outside the grid. It needs the state of the cells of the box on the grid, and of
-/// the inner cells that the conditions at a side use.
+/// Fills those cells of a box that are outside the grid. The state must be known in the cells of the box on the grid,
+/// and in the inner cells that the conditions at a side use.
 template <int D, int K>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows, const Box& box);
 template <int D, int K>

@@ -76,7 +76,7 @@ struct ColdCurve {
 // number, the last component, which together with the density determines pressure and energy. The second number is the
 // pressure [Pa] or, if the pressure does not depend on the heat, the heat rho c_v T [J/m³].
 
-/// The equation of state p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T, after Mie & Grueneisen. Gamma is
+/// The equation of state p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T, after Mie & Grüneisen. Gamma is
 /// constant or, with a linear cold curve, Gamma rho is constant. With Gamma = 0 the pressure depends on the density
 /// alone.
 ///

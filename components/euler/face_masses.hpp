@@ -22,7 +22,7 @@ struct FaceMasses {
     if (!areKept) return {};
     return {.below = take(computes(c::massFlux<D>[0])), .above = take(computes(c::massFlux<D>[1]))};
   }
-  /// Stores the mass fluxes across an axis through the faces of the cells of a block.
+  /// Stores the mass fluxes along an axis through the faces of the cells of a block.
   template <int K>
   void keep(const Box& block, int axis, const Rows<D, K>& flux) const {
     if (!below) return;

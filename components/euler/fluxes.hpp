@@ -13,8 +13,8 @@ struct FaceState {
   double energy;
 };
 
-/// The flux F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, where m = rho v_n. For several gases, it also
-/// contains the mass and the volume fraction of each gas, times v_n.
+/// The flux F = (m, m v + p n, (E + p) v_n) through a face normal to `Axis`, where m = rho v_n. For several gases, it
+/// also contains the mass and the volume fraction of each gas, times v_n.
 template <int D, int Axis, int K>
 State<D, K> fluxOf(const FaceState<D, K>& face) {
   const double normal = face.w[kVelocity(Axis)];

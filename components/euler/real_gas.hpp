@@ -14,10 +14,10 @@ constexpr std::array<double, 5> ofAir(const std::array<double, 5>& oxygen, const
   return a;
 }
 
-/// The specific heat of air, 1 mol of O2 with 3.76 mol of N2, over its gas constant: c_p/R = a_0 + a_1 T + … + a_4 T^4
-/// of each, weighted by mole fractions. It holds from 200 to 3500 K; beyond, c_v keeps its value there. Energies count
-/// from 0 K. Source of the coefficients: B. J. McBride, S. Gordon & M. A. Reno, NASA TM 4513 (1993), as in G. P. Smith
-/// & al., GRI-Mech 3.0 (1999).
+/// The specific heat of air (1 mol of O2 with 3.76 mol of N2), divided by its gas constant: c_p/R = a_0 + a_1 T + … +
+/// a_4 T^4 for O2 and N2, weighted by mole fractions. Valid from 200 to 3500 K; below and above, c_v keeps its value at
+/// the nearer limit. Energies are measured from 0 K. Source of the coefficients:
+/// B. J. McBride, S. Gordon & M. A. Reno, NASA TM 4513 (1993), as in G. P. Smith & al., GRI-Mech 3.0 (1999).
 class HeatOfAir {
   using Polynomial = std::array<double, 5>;
 
@@ -47,7 +47,8 @@ class HeatOfAir {
     if (t <= most) return atMiddle + entropyRise(hot, middle, t);
     return atMost + std::log(t / most) * specificHeat(most);
   }
-  /// T [K] of e / R [K], by Newton's method to round-off: c_v hardly varies.
+  /// The temperature [K] at a given e / R [K], by Newton's method to round-off; it converges fast because c_v hardly
+  /// varies.
   static double temperature(double energyOverR) {
     double t = energyOverR / specificHeat(least), last = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 50; ++k) {
@@ -78,10 +79,10 @@ class HeatOfAir {
   }
 };
 
-/// A gas whose molecules take room and act on each other, p = R T / (v - b) - a / ((v + u b) (v + w b)) with v = 1 /
-/// rho, or an ideal one (a = b = 0), of a c_v that is constant or that of air. Its energy is that of the heat less what
-/// the molecules' forces do: de/dv = a / ((v + u b) (v + w b)) at constant T.
-/// Source: C. H. Twu, W. D. Sim & V. Tassone, Fluid Phase Equilib. 194 (2002) 385, of this form with u = -.5, w = 3.
+/// A gas whose molecules have a volume and attract each other, p = R T / (v - b) - a / ((v + u b) (v + w b)) with v = 1
+/// / rho, or an ideal gas (a = b = 0). Its c_v is constant or that of air. Its energy is the thermal energy plus the
+/// energy of attraction, which is negative and rises with v: de/dv = a / ((v + u b) (v + w b)) at constant T. Source:
+/// C. H. Twu, W. D. Sim & V. Tassone, Fluid Phase Equilib. 194 (2002) 385, for this form with u = -.5, w = 3.
 class RealGas {
  public:
   struct Numbers {
@@ -101,13 +102,13 @@ class RealGas {
   double energyOf(double rho, double last) const {
     return rho * (heatOf(temperatureOf(1 / rho, last)) + energyOfForces(1 / rho));
   }
-  /// c² = v² (-dp/dv + T (dp/dT)² / c_v), derivatives at constant T and v.
+  /// c² = v² (-dp/dv + T (dp/dT)² / c_v), where dp/dv is at constant T and dp/dT at constant v.
   double soundSpeedSquared(double rho, double last) const {
     const double v = 1 / rho, t = temperatureOf(v, last), perKelvin = n_.gasConstant / room(v), b = n_.covolume;
     const double slope = perKelvin * t / room(v) - forces(v) * (1 / (v + n_.u * b) + 1 / (v + n_.w * b));
     return v * v * (slope + t * perKelvin * perKelvin / specificHeatAt(t));
   }
-  /// The heat per volume, which must be above 0.
+  /// The heat per volume; it is greater than 0 in possible states.
   double heat(double rho, double last) const {
     return room(1 / rho) > 0 ? rho * heatOf(temperatureOf(1 / rho, last)) : -1;
   }
@@ -124,7 +125,7 @@ class RealGas {
   double lastAt(double rho, double temperature) const {
     return n_.gasConstant * temperature / room(1 / rho) - forces(1 / rho);
   }
-  /// rho of the gas, not of its liquid, for a pressure and a temperature, by bisection to round-off.
+  /// The density of the gas, not of its liquid, at a given pressure and temperature, by bisection to round-off.
   double densityAt(double pressure, double temperature) const {
     double least = 0, most = pressure / (n_.gasConstant * temperature);
     if (n_.covolume == 0 && n_.attraction == 0) return most;
@@ -141,18 +142,18 @@ class RealGas {
     }
     return most;
   }
-  /// Entropy per mass over the constant c_v.
+  /// The entropy per mass divided by the constant Numbers::specificHeat.
   double entropy(double rho, double energy) const {
     const double t = temperature(rho, energy), ratio = n_.gasConstant / n_.specificHeat;
     return (n_.isAir ? ratio * HeatOfAir::entropy(t) : std::log(t)) + ratio * std::log(room(1 / rho));
   }
-  /// Approximately p / (rho u²) behind a strong shock, which accelerates gas at rest to the speed u.
+  /// The approximate ratio p / (rho u²) behind a strong shock that accelerates gas at rest to the speed u.
   double shockSlope() const { return 1 + 0.5 * n_.gasConstant / n_.specificHeat; }
 
  private:
   double room(double v) const { return v - n_.covolume; }
   double forces(double v) const { return n_.attraction / ((v + n_.u * n_.covolume) * (v + n_.w * n_.covolume)); }
-  /// The integral of forces(v) from infinity, J/kg.
+  /// The energy of attraction: the integral of forces(v) from infinity [J/kg].
   double energyOfForces(double v) const {
     const double low = v + n_.u * n_.covolume, apart = (n_.w - n_.u) * n_.covolume;
     return apart == 0 ? -n_.attraction / low : -n_.attraction / apart * std::log1p(apart / low);
@@ -161,7 +162,7 @@ class RealGas {
   double specificHeatAt(double t) const {
     return n_.isAir ? n_.gasConstant * HeatOfAir::specificHeat(t) : n_.specificHeat;
   }
-  /// e of the heat, J/kg.
+  /// The thermal energy per mass [J/kg].
   double heatOf(double t) const { return n_.isAir ? n_.gasConstant * HeatOfAir::energy(t) : n_.specificHeat * t; }
 
   Numbers n_;

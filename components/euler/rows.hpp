@@ -32,8 +32,8 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
 /// fit into the second-level cache.
 inline constexpr int kColumnCells = 2400;
 
-/// The extents of the blocks that tile a box. In two dimensions, blocks of narrow boxes are higher, with as many cells
-/// and ghost cells (two around a block) as a block of kBlock: so fewer cells are beside two blocks.
+/// The extents of the blocks that tile a box. In two dimensions, blocks of narrow boxes are taller: with two layers of
+/// ghost cells around it, a block has as many cells as one of kBlock. So fewer cells are also ghosts of another block.
 template <int D>
 Index3 blockOf(const Box& box) {
   Index3 block = kBlock<D>;
@@ -161,18 +161,19 @@ class Rows {
   std::array<std::ptrdiff_t, 3> stride_{};
 };
 
-/// Most cells of a stretch: what a step computes of them fits into the first-level cache.
+/// Largest number of cells in a stretch: what a step computes for them fits into the first-level cache.
 inline constexpr int kStretch = 128;
 
-/// Whether rows, in rows that hold the box `held`, are computed faster by themselves than in stretches: if they fill
-/// whole vector registers, but take more of them together with what lies between them.
+/// Whether the rows of `box` are computed faster one by one than in stretches, given that memory contains the larger
+/// box `held`. This is so if a row fills whole vector registers, and the cells between two rows would take further
+/// ones.
 inline bool fillRegisters(const Box& box, const Box& held) {
   constexpr int lanes = Lanes::count;
   return box.extent(0) % lanes == 0 && held.extent(0) - box.extent(0) >= lanes;
 }
 
-/// Calls `visit(first, count)` for stretches of memory that hold the cells of a box, in rows that hold the box `held`.
-/// Short rows follow each other in one stretch, with the cells between them, so that loops are long.
+/// Calls `visit(first, count)` for stretches of memory that contain the cells of `box`, given that memory contains the
+/// larger box `held`. A stretch may contain several short rows and the cells between them, so that loops are long.
 template <int D, class Visit>
 void forEachStretch(const Box& box, const Box& held, Visit&& visit) {
   if (box.empty()) return;

@@ -34,7 +34,8 @@ struct SpongeLayer {
 struct VaryingDiffusion {
   Diffusion uniform = {};                     ///< used where none of the following settings applies
   std::optional<Sutherland> sutherland = {};  ///< replaces the uniform viscosity
-  std::vector<SpongeLayer> sponges = {};      ///< replaces both; where several boxes overlap, the last one applies
+  std::vector<SpongeLayer> sponges =
+      {};  ///< viscosity in boxes, which replaces both; where boxes overlap, the last one applies
   /// Smagorinsky's constant C for eddies: mu + rho (C Delta)² sqrt(2 S : S)
   double smagorinsky = 0;
 

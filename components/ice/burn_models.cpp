@@ -97,7 +97,7 @@ void addInduction(Schema<DdtSection>& tags) {
 
 void checkDdt(const DdtSection& read, const input::Element& section, input::Diagnostics& diagnostics) {
   if (!read.burnt.empty() && read.burnt != read.to)
-    diagnostics.error(*section.child("burnMaterial"), "is not available; what burns becomes <toMaterial>");
+    diagnostics.error(*section.child("burnMaterial"), "is not available; the burned body becomes <toMaterial>");
   if (read.waits)
     for (const char* tag : {"IgnitionConst", "PressureShift", "PreexpoConst", "ExponentialConst"})
       if (!section.child(tag)) diagnostics.error(section, std::string("missing tag <") + tag + "> in <DDT1>");
@@ -109,7 +109,7 @@ const Schema<DdtSection>& ddtSchema() {
   static const Schema<DdtSection> schema = [] {
     Schema<DdtSection> tags("DDT1", "A body deflagrates at its surface and in cracks; a detonation ends the run.");
     addMaterials(tags);
-    tags.value("burnMaterial", &DdtSection::burnt, "", "1", "only <toMaterial>");
+    tags.value("burnMaterial", &DdtSection::burnt, "", "1", "may only repeat <toMaterial>");
     addSteadyBurn(tags, "ThresholdPressureSB");
     tags.required("ThresholdPressureJWL", &DdtSection::detonationPressure, "Pa",
                   "above this pressure the body would detonate, which ends the run", input::positive());

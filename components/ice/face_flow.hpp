@@ -103,7 +103,7 @@ class GasBefore {
     return true;
   }
   bool isFlat(const Index<D>& cell) const { return is_flat_ && is_flat_(cell); }
-  /// The limited difference across a cell of one component of the state.
+  /// The limited difference of one component of the state across a cell.
   double slope(const Index<D>& cell, int axis, std::size_t number) const {
     if (isFlat(cell)) return 0;
     const Index<D> step = Index<D>::unit(axis);
@@ -123,8 +123,7 @@ class GasBefore {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule && rule->factor[euler::kPressure<D>] != 0;
   }
-  /// Whether a face lies on a side through which gas leaves: neither a pressure nor a velocity across the side is
-  /// given.
+  /// Whether a face lies on a side through which gas leaves: neither a pressure nor a normal velocity is given.
   bool isOpen(const Index<D>& face, int axis) const { return isFree(face, axis) && !givenVelocity(face, axis); }
   /// Density at a face, rho_f [kg/m³].
   double density(const Index<D>& face, int axis) const { return mean(old_, face, axis, euler::kDensity); }

@@ -191,8 +191,8 @@ const Schema<AirSection>& airSchema() {
           .location(&AirSection::where)
           .requiredChoiceAttribute("type", &AirSection::type, {{"airNasa", "airNasa"}},
                                    "that of 1 mol of O2 with 3.76 mol of N2 by polynomials of NASA, 200 to 3500 K")
-          .optional("gas_constant", &AirSection::gasConstant, "J/(kg K)",
-                    "R; (gamma - 1) specific_heat unless it is given", input::positive());
+          .optional("gas_constant", &AirSection::gasConstant, "J/(kg K)", "R; by default (gamma - 1) specific_heat",
+                    input::positive());
   return schema;
 }
 

@@ -49,7 +49,7 @@ class CarriedScalar {
   const ScalarSettings& settings() const { return settings_; }
   const CellLabel<double>& value() const { return value_; }
   const CellLabel<double>& held() const { return held_; }
-  /// held() before small cells beside bodies are merged.
+  /// Like held(), but before small cells next to bodies are merged.
   const CellLabel<double>& unshared() const { return unshared_; }
   const ReductionLabel<Sum>& total() const { return total_; }
   /// The label for boundary conditions.

@@ -2,7 +2,7 @@
 
 #include "components/ice/gas_schemas.hpp"
 
-// The tag dynamicViscosityModels: a viscosity that depends on the temperature, or on the place.
+// The tag dynamicViscosityModels: a viscosity that depends on the temperature or on the position.
 
 namespace tushar::ice {
 

@@ -3,7 +3,7 @@
 #include "core/core.hpp"
 #include "core/simulation/conserved.hpp"
 
-// Variables of every method here; gas/labels.hpp and solid/labels.hpp add their own.
+// Variables of all methods; gas/labels.hpp and solid/labels.hpp add their own.
 
 namespace tushar::mpm {
 

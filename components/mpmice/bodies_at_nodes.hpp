@@ -15,7 +15,7 @@ class BodiesAtNodes {
 
   BodiesAtNodes(const Level& level, const Records& records) : level_(&level), records_(&records) {}
 
-  /// The nodes on the grid that belong to the cells on both sides of the lower face of a cell across an axis.
+  /// The nodes on the grid that belong to the cells on both sides of a cell's lower face along an axis.
   Box nodesAt(const Index<D>& cell, int axis) const {
     Box nodes{{}, Index3::filled(1)};
     for (int d = 0; d < D; ++d) {

@@ -15,7 +15,7 @@ inline double openShare(double coverage, double below, double above, bool thinWa
   return std::max(0.0, std::min(1 - coverage, most));
 }
 
-/// The open fractions and walls at the two faces of a cell across an axis, as fractions of the face area.
+/// The open parts and walls at a cell's two faces along an axis, as fractions of the face area.
 struct OpenFaces {
   std::array<double, 2> open{};
   double area = 0;  ///< open part and wall together, equal for both faces; 0 if the cell has no gas
@@ -79,8 +79,9 @@ class FreeSpace {
     return both;
   }
 
-  /// Unit vector into the body: the direction of the gradient of 1 - free volume over the surrounding cells, weighted 1
-  /// 2 1 across each axis; 0 if the gradient vanishes. Source: D. L. Youngs, AWRE report 44/92/35 (1984).
+  /// Unit vector into the body: the direction of the gradient of 1 - free volume over the surrounding cells, with the
+  /// weights 1 2 1 along the axes perpendicular to each derivative; 0 if the gradient vanishes. Source: D. L. Youngs,
+  /// AWRE report 44/92/35 (1984).
   Vec<D> normal(const Index<D>& cell) const {
     Vec<D> gradient = Vec<D>::Zero();
     Box around{{}, Index3::filled(1)};

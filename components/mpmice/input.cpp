@@ -130,7 +130,7 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& nam
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// Checks a body that burns by DDT1: at its surface, or in its cracks, too.
+/// Checks a body that burns by DDT1, at its surface or also in its cracks.
 void checkDdt(const Element& body, bool areRigid, const ice::BurnModel& model, Diagnostics& diagnostics) {
   const auto given = body.child("constitutive_model");
   const std::string name = given ? given->attribute("type").value_or("") : "";
@@ -216,8 +216,8 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   for (const ice::ScalarSettings& one : scene.scalars)
     if (one.diffusivity > 0)
       diagnostics.error(one.where, "Models/Model",
-                        fmt::format("{:g} m^2/s is not available with bodies: there scalars are carried, but do not "
-                                    "diffuse; set it to 0",
+                        fmt::format("{:g} m^2/s is not available with bodies: next to them, scalars are transported, "
+                                    "but do not diffuse; set it to 0",
                                     one.diffusivity));
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",

@@ -23,7 +23,7 @@ inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the 
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
     "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};
-/// Labels of a number for the walls at the lower faces of a cell, one along each axis, and of one for those at the
+/// A pair of labels, each with one number per axis: for the walls at the lower faces of a cell, and for those at the
 /// upper faces.
 template <int D>
 using OnWalls = std::array<CellLabel<Vec<D>>, 2>;
@@ -119,7 +119,7 @@ inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of 
 inline constexpr CellLabel<double> burnMode{
     "c.burnMode", "1", "mode of burning: 0 none, 1 at the surface, 2 in cracks, 3 waiting for a flame"};
 inline constexpr CellLabel<double> burnPressure{"c.burnPressure", "Pa", "pressure at which the body burns"};
-inline constexpr CellLabel<double> waited{"c.waited", "s", "time for which a flame has been beside the cell"};
+inline constexpr CellLabel<double> waited{"c.waited", "s", "time for which a flame has been next to the cell"};
 inline constexpr CellLabel<double> inductionTime{"c.inductionTime", "s", "time that the cell waits before it burns"};
 inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "fraction of c.reactantMass that burns in the step"};
 inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};

@@ -53,7 +53,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;
   void scheduleBoxes(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
-  /// Advection of scalars with the gas, before small cells are merged, and after it.
+  /// Adds the tasks that advect scalars with the gas: before small cells are merged, and after.
   void carryScalars(TaskList& tasks) const;
   void shareScalars(TaskList& tasks) const;
 

@@ -22,7 +22,7 @@ struct ParticleBox {
   double lengthAbove(int axis, int k) const {
     return std::clamp(middle[axis] + 0.5 * edges[axis] - k, 0.0, edges[axis]);
   }
-  /// Weight of the lower face of cell `k` across an axis: 1 at the centre of the box, decreasing to 0 at a distance of
+  /// Weight of the lower face of cell `k` along an axis: 1 at the centre of the box, decreasing to 0 at a distance of
   /// one edge of the box. So adjacent boxes fully cover a face.
   double hatAt(int axis, int k) const { return std::max(0.0, 1 - std::abs(k - middle[axis]) / edges[axis]); }
 

@@ -7,7 +7,7 @@
 
 namespace tushar::mpmice {
 
-/// Views of what the bodies do to the gas in a step: by their walls, and by the change of free volumes and faces.
+/// Views of the effects of bodies on the gas in a step: by their walls, and by changes of free volumes and faces.
 template <int D>
 struct BodiesInStep {
   KnownWalls<D> walls;

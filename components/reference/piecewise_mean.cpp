@@ -41,7 +41,7 @@ void Sphere::addBreaks(int axis, const Vec3& lower, const Vec3& upper, const Vec
   if (round[axis] == 0) return;
   double rest = radius * radius;
   for (int d = 0; d < axis; ++d) rest -= round[d] * (x[d] - centre[d]) * (x[d] - centre[d]);
-  // Along each later axis the sphere may touch an end of the box, or turn back at the nearest point inside.
+  // Along each later axis, the sphere may meet an end of the box, or have its extreme point within the box.
   for (int choice = 0; choice < std::array{9, 3, 1}[axis]; ++choice) {
     double square = rest;
     for (int d = axis + 1, picks = choice; d < 3; ++d, picks /= 3) {

@@ -15,8 +15,8 @@ struct Plane {
 
   /// Whether the plane passes through the interior of the box [lower, upper] [m].
   bool cuts(const Vec3& lower, const Vec3& upper) const;
-  /// Adds the positions along `axis` where the plane enters or leaves the rest of the box. The rest is the part of the
-  /// box whose coordinates along the earlier axes are those of `x`.
+  /// Adds to `breaks` the positions along `axis` at which the plane enters or leaves that part of the box in which the
+  /// coordinates along the earlier axes are those of `x`.
   void addBreaks(int axis, const Vec3& lower, const Vec3& upper, const Vec3& x, std::vector<double>& breaks) const;
 };
 

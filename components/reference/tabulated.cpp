@@ -14,7 +14,7 @@ namespace tushar::reference {
 
 namespace {
 
-/// Path of a saved cell field, which belongs to the grid, or to a single material.
+/// Path of a saved cell field, which belongs to no material or to a single one.
 std::string findField(const output::Hdf5Input& file, const std::string& label) {
   if (const std::string plain = "cells/" + label; file.has(plain)) return plain;
   std::vector<std::string> found;

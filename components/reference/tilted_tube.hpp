@@ -29,7 +29,8 @@ class TiltedTube : public GasReference {
   /// Throws std::domain_error at times after a wave has reached a mirror.
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override { return t >= 0 && t < meetingTime_; }
-  /// Uses piecewiseMean with one piece between any two waves; there is no quadrature along the axes across the tube.
+  /// Uses piecewiseMean with one piece between any two waves; there is no quadrature along axes perpendicular to the
+  /// tube.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:

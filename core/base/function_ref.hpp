@@ -6,8 +6,8 @@
 
 namespace tushar {
 
-/// A reference to a function object that can be called while it is const, and must outlive it: a parameter for
-/// functions that are compiled once, not again for each object that they call. Copies refer to the same object.
+/// A reference to a function object, which must be callable as const and outlive the reference. A function with such a
+/// parameter is compiled only once, not again for each type of object passed to it. Copies refer to the same object.
 template <class Signature>
 class FunctionRef;
 

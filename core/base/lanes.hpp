@@ -14,8 +14,8 @@
 
 namespace tushar {
 
-/// As many numbers as fit into one vector register of the processor. An operation on the register gives each lane the
-/// same bits as the operation on a single number, so results do not depend on which numbers share a register.
+/// As many numbers as fit into one vector register of the processor. In each lane, an operation on the register is
+/// bitwise equal to the operation on a single number, so results do not depend on which numbers share a register.
 class Lanes {
  public:
 #if defined(__AVX512F__)
@@ -67,16 +67,16 @@ class Lanes {
   }
   friend Mask operator>=(Lanes a, Lanes b) { return a.values_ >= b.values_; }
   friend Lanes select(Mask which, Lanes yes, Lanes no) { return which ? yes.values_ : no.values_; }
-  /// Loads component `Which` of consecutive vectors at `from`, which have `numbers` components: lane k gets that of
-  /// vector k.
+  /// Loads component `Which` of consecutive vectors with `numbers` components each, stored at `from`: lane k gets the
+  /// component of vector k.
   template <int numbers, int Which>
   [[gnu::always_inline]] static Lanes unpacked(const double* from) {
     Register sum = at(from).values_;
     takeRegisters<numbers, Which, 1>(sum, from, std::make_integer_sequence<int, count>());
     return sum;
   }
-  /// Returns register `Which` of such vectors as they are stored in memory, the inverse of `unpacked`. Element c of
-  /// `of` contains component c of all vectors.
+  /// The inverse of `unpacked`: returns register `Which` of the vectors as they are stored in memory. Element c of `of`
+  /// contains component c of all vectors.
   template <int Which, std::size_t numbers>
   [[gnu::always_inline]] static Lanes packed(const std::array<Lanes, numbers>& of) {
     Register sum = of[0].values_;

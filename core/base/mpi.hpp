@@ -59,10 +59,10 @@ class Communicator {
   /// Replaces each number by its maximum over all ranks.
   void max(std::span<double> mine) const;
   long sum(long mine) const;
-  /// Replaces each number by its sum over all ranks; whole numbers have bitwise the same sum on all ranks.
+  /// Replaces each number by its sum over all ranks; sums of whole numbers are bitwise equal on all ranks.
   void sum(std::span<double> mine) const;
-  /// Merges the values of all ranks with `merge(from, into)`, in a tree that depends only on the number of ranks. Every
-  /// rank gets the same bits.
+  /// Merges the values of all ranks with `merge(from, into)`, in a tree that depends only on the number of ranks. The
+  /// result is bitwise equal on all ranks.
   void merge(std::span<std::byte> value,
              const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
   /// Merges a value by its own function `merge`.

@@ -8,8 +8,8 @@
 
 namespace tushar {
 
-/// An object of any type, stored on the heap, which copies share. A std::shared_ptr or std::unique_ptr of its type
-/// would be several classes of their own for each.
+/// An object of any type on the heap, shared by all copies of this handle. With std::shared_ptr or std::unique_ptr, the
+/// compiler would generate several classes for each type of object.
 class SharedObject {
  public:
   static constexpr std::size_t alignment = 64;
@@ -42,9 +42,9 @@ class SharedObject {
   std::shared_ptr<const void> object_;
 };
 
-/// Any function object that can be called with these arguments while it is const. Does what std::function does, except
-/// for each kind of object the compiler makes one function in place of five: the tasks of components and the tags of
-/// schemas are thousands.
+/// Any function object that can be called as const with these arguments. Works like std::function, but for each type of
+/// object the compiler generates one function instead of five, which matters because there are thousands of tasks and
+/// tags.
 template <class Signature>
 class SharedFunction;
 

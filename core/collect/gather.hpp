@@ -12,8 +12,8 @@
 
 namespace tushar::collect {
 
-/// A layer of the grid across a kernel axis: the cells between two neighbouring planes of nodes, and the nodes on one
-/// of these planes. On a grid of several levels, it contains a layer of cells of each level, and no nodes.
+/// A layer of the grid normal to a kernel axis: the cells between two neighbouring planes of nodes, and the nodes on
+/// one of these planes. On a grid of several levels, it contains a layer of cells of each level, and no nodes.
 struct Layer {
   int axis = 0, cell = 0, node = 0;
   std::vector<int> finer{};  ///< index of the layer among the cells of levels 1, 2, …
@@ -59,7 +59,7 @@ class Gather {
 /// The geometry of the grid, in the form in which the archive stores it.
 output::GridInfo gridInfo(const grid::Grid& grid);
 output::GridInfo gridInfo(const grid::Level& level);
-/// The geometry of a layer. Along the axis across the layer there is one cell, and the axis counts as not in use.
+/// The geometry of a layer. Along the normal of the layer there is one cell, and this axis counts as not in use.
 output::GridInfo gridInfo(const grid::Grid& grid, const Layer& layer);
 /// The geometry of the grid; for several levels, with the boxes of cells that are in the window.
 output::GridInfo gridInfo(const grid::Grid& grid, const Window& window);

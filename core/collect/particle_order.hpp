@@ -33,7 +33,7 @@ class ParticleOrder {
   std::size_t count() const { return count_; }
   /// The number of particles in each cell of the grid, in cell order; valid as long as this object exists.
   std::shared_ptr<const output::Source> perCell() const;
-  /// Gives each patch its particles, without their values.
+  /// Creates the particle sets of all patches, without values.
   void install();
   /// The runs of particles in the patches of this rank.
   Runs runs() const;

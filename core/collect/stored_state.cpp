@@ -72,7 +72,7 @@ std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
 
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
 
-/// What writing and reading a state have in common: the variables, and their positions in the file.
+/// The common part of writing and reading a state: the variables, and their positions in the file.
 class StateWalk {
  public:
   StateWalk(data::Warehouse& warehouse, const StateNames& names)

@@ -5,10 +5,10 @@
 
 namespace tushar::collect {
 
-/// The scope of a summary: the whole grid or, on a grid of one level, each plane of cells or nodes across a kernel
+/// The scope of a summary: the whole grid or, on a grid of one level, each plane of cells or nodes normal to a kernel
 /// axis.
 struct SummaryOver {
-  int axis = -1;  ///< kernel axis across which planes are summarised; -1 for the whole grid
+  int axis = -1;  ///< kernel axis normal to the planes that are summarised; -1 for the whole grid
 };
 
 /// Minimum, maximum and sum of each component: over all cells or nodes, or for each plane. On several levels, sums
@@ -18,7 +18,7 @@ struct Summary {
 };
 
 /// Returns the summary of a cell or node variable of a generation on rank 0, and empty arrays on the other ranks. The
-/// result has the same bits on any patches and ranks. Collective; ranks exchange only their own summaries.
+/// result is bitwise equal for all patches and ranks. Collective; ranks exchange only their own summaries.
 Summary summaryOf(data::Warehouse& warehouse, data::Generation generation, int variable, SummaryOver over);
 
 }  // namespace tushar::collect

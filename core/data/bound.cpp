@@ -22,8 +22,8 @@ class Look {
     for (; k + Lanes::count <= count; k += Lanes::count) addTo(least_[0], sum_[0], Lanes::at(values + k));
     for (; k < count; ++k) addTo(last_least_, last_sum_, values[k]);
   }
-  /// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite. The least is computed only
-  /// if it is needed; it is that of the numbers that are not NaN, and of 1.
+  /// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite. The smallest number is
+  /// computed only if it is needed: the smallest of 1 and all numbers that are not NaN.
   bool surelyHolds(Bound bound) const {
     double least = last_least_, sum = last_sum_;
     for (std::size_t k = 0; k < registers; ++k)

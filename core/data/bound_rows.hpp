@@ -7,7 +7,7 @@ namespace tushar::data {
 /// Rows of numbers in memory.
 struct NumberRows {
   const double* first;
-  std::size_t count;      ///< numbers of a row
+  std::size_t count;      ///< number of values in a row
   std::size_t rows;       ///< number of rows
   std::ptrdiff_t stride;  ///< distance from the start of a row to that of the next
 };

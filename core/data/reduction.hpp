@@ -85,7 +85,7 @@ struct Sum {
     addExactly(error, x);
     rest += x;
   }
-  /// After the merge, each part is the rounding error of the previous one, so that equal sums have equal bits.
+  /// After the merge, each part is the rounding error of the previous one, so that equal sums are bitwise equal.
   void merge(const Sum& other) {
     add(other.value);
     double x = other.error;

@@ -11,8 +11,8 @@ namespace tushar::data {
 /// The label of the fluxes of a cell variable through the rims of patches; it exists until the program ends.
 const Label& rimLabelOf(const Label& label);
 
-/// Calls `visit(face, place)` for the faces of rims across an axis that are in a box of faces, with the place of each
-/// among the values of the rims.
+/// Calls `visit(face, place)` for the rim faces normal to an axis that lie in a box of faces; `place` is the position
+/// of the face among the values of the rims.
 template <int D>
 void forEachRimFace(std::span<const grid::RimPiece> pieces, const grid::Box& faces, int axis,
                     FunctionRef<void(const Index<D>& face, std::size_t place)> visit);
@@ -35,8 +35,8 @@ class RimFlux {
       grid::forEach<D>(piece.cells, [&](const Index<D>& cell) { visit(cell, piece.axis, piece.side, *through++); });
     }
   }
-  /// Calls `visit(face, flux)` for the faces across an axis that are in a box of faces; the index of a face is that of
-  /// the cell above it.
+  /// Calls `visit(face, flux)` for the faces normal to an axis that lie in a box of faces; the index of a face is that
+  /// of the cell above it.
   template <int D, class Visit>
   void forEachFaceIn(const grid::Box& faces, int axis, Visit&& visit) const {
     if (empty()) return;

@@ -95,7 +95,7 @@ struct Box {
 
   constexpr Box shifted(const Index3& by) const { return {lower + by, upper + by}; }
 
-  /// The nodes of the cells in this box: one more than cells along each of the first `dimension` axes.
+  /// The nodes of the cells in this box: along each of the first `dimension` axes, one more node than cells.
   constexpr Box nodes(int dimension) const {
     Box box = *this;
     for (int d = 0; d < dimension; ++d) ++box.upper[d];

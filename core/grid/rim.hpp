@@ -11,7 +11,7 @@ class Grid;
 
 /// Faces between a patch and one patch of the next finer or coarser level.
 struct RimPiece {
-  int axis, side;     ///< axis across the faces; side 0: lower faces of `cells`, 1: upper faces
+  int axis, side;     ///< axis normal to the faces; side 0: lower faces of `cells`, 1: upper faces
   Box cells;          ///< cells of the patch that have these faces
   int other;          ///< index of the patch behind the faces
   Index3 shift;       ///< shift of the periodic image of `other` [cells of the coarser level]

@@ -14,11 +14,11 @@ inline constexpr std::array<std::string_view, 5> sidePartNames{"circle", "annulu
                                                                "rectangulus"};
 
 /// A part of a side of the grid. The outer rim belongs to the part, the rim of a hole does not. Both hold with a
-/// tolerance of a billionth of the size, so that round-off does not make a jet lopsided. Coordinates across the side do
-/// not matter.
+/// tolerance of a billionth of the size, so that round-off does not make a jet lopsided. Coordinates along the normal
+/// of the side do not matter.
 class SidePart {
  public:
-  /// The points within `radius` [m] of `origin`, on a side across `axis`.
+  /// The points within `radius` [m] of `origin`, on a side whose normal is `axis`.
   static SidePart circle(int axis, const Vec3& origin, double radius);
   /// The ring between two circles.
   static SidePart annulus(int axis, const Vec3& origin, double inner, double outer);
@@ -31,7 +31,7 @@ class SidePart {
   static SidePart rectangulus(int axis, const std::array<Vec3, 2>& inner, const std::array<Vec3, 2>& outer);
 
   bool holds(const Vec3& x) const;
-  /// The corners of a bounding box; their coordinates along the axis across the side are ignored.
+  /// The corners of a bounding box; their coordinates along the normal of the side are ignored.
   const Vec3& lower() const { return outer_.lower; }
   const Vec3& upper() const { return outer_.upper; }
 

@@ -14,7 +14,7 @@ namespace tushar::input {
 
 /// A formula in the coordinates x, y, z [m] and the time t [s], such as `1e5*(1 + 0.1*sin(2*pi*x))`.
 ///
-/// Knows the operators + - * / ^, comparisons, && ||, `condition ? a : b`, the constants pi and e, and the usual
+/// Supports the operators + - * / ^, comparisons, && ||, `condition ? a : b`, the constants pi and e, and the usual
 /// functions (sin, cos, exp, ln, sqrt, abs, min, max, …). A formula without x, y, z and t is evaluated only once, when
 /// it is read. Several threads may evaluate a formula at the same time.
 class Expression {

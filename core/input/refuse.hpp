@@ -14,15 +14,15 @@ namespace tushar::input {
 void refuseSwitch(SchemaBase& schema, const std::string& tag, const std::string& instead);
 /// Accepts a flag of Uintah only if it is `true`; `instead` names the alternative.
 void requireSwitch(SchemaBase& schema, const std::string& tag, const std::string& instead);
-/// Accepts a tag of Uintah only if it has one of some values; `sentence` gives the reason.
+/// Accepts a tag of Uintah only if its value is one of `values`; `sentence` gives the reason.
 void refuseOtherValues(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& values,
                        const std::string& sentence);
 /// Refuses a tag of Uintah; `instead` names the alternative.
 void refuseTag(SchemaBase& schema, const std::string& tag, const std::string& instead);
 /// Accepts a tag of Uintah that has no effect, with a note that gives the reason `why`.
 void noteTag(SchemaBase& schema, const std::string& tag, const std::string& why);
-/// If an attribute of Uintah declared as Schema::ignoredAttribute is given, notes that it has no effect, with the
-/// reason `why`.
+/// If an attribute of Uintah is given, notes that it has no effect, with the reason `why`. The attribute must be
+/// declared by Schema::ignoredAttribute.
 void noteAttribute(const Element& given, const std::string& attribute, const std::string& why,
                    Diagnostics& diagnostics);
 /// Accepts only the `available` options of one of Uintah's choices; the tag may be omitted.

@@ -12,8 +12,8 @@
 namespace tushar::input {
 
 /// Reads text as a T: bool, int, std::int64_t, double, std::string, Vec3, Index3, std::vector of double, int,
-/// std::string or Index3, Expression or VectorExpression. Blanks are free at the ends and around commas and brackets.
-/// Numbers are read in the same way in every locale; infinite and undefined numbers are refused.
+/// std::string or Index3, Expression or VectorExpression. Blanks are allowed at the ends and around commas and
+/// brackets. Numbers are read in the same way in every locale; infinite and undefined numbers are refused.
 template <class T>
 Parsed<T> parse(std::string_view text);
 

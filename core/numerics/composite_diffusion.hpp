@@ -54,8 +54,8 @@ class CompositeDiffusion {
  private:
   const Diffusion<D>& on(int level) const { return ofLevels_[level]; }
 
-  /// Calls `visit` for those finer cells inside the cell `next` that touch its face to the cell from which `next` lies
-  /// on side `side` along axis d.
+  /// Calls `visit` for the finer cells inside the cell `next` that touch the face between `next` and the cell before
+  /// it; seen from that cell, `next` lies on side `side` along axis d.
   template <class Visit>
   static void forEachFiner(const Index<D>& next, int d, int side, Visit&& visit) {
     for (int k = 0; k < (1 << D); ++k) {
@@ -86,7 +86,7 @@ class CompositeDiffusion {
       balance.add(level - 1, cell, over * weight);
     });
   }
-  /// k halfway between the centre of a cell and one of its faces.
+  /// The value of k halfway between the centre of a cell and one of its faces.
   double nearFace(int level, const Index<D>& cell, int d, int side) const {
     const grid::Level& here = grid_.level(level);
     Vec<D> x = here.template cellCentre<D>(here.template wrapped<D>(cell));

@@ -73,8 +73,8 @@ class Archive {
   void flush();
   /// Waits until the lines of globals are on the disk.
   void sync() const;
-  /// The extent of the archive after a step: kept in a checkpoint, it replaces lists that are out of date, or that a
-  /// power cut destroys. Outputs may go with it, except for those of the last seconds only.
+  /// The extent of the archive after a step. A checkpoint stores it, so that it can replace lists that are out of date
+  /// or were destroyed by a power cut.
   ArchivePoint pointAt(int step, double time) const;
 
   /// The folder of this run, such as `sod.uda.001`.

@@ -13,9 +13,9 @@ std::string linesUpTo(const std::string& lines, double time);
 /// Removes the outputs in an archive's folder that its index does not list, and unfinished outputs of a killed run.
 void removeUnlisted(const std::filesystem::path& folder, const ArchiveIndex& index);
 
-/// Returns the text of the index that lists more outputs up to a step: the index in `file`, or its copy `kept` in a
-/// checkpoint. After a power failure, the file may be torn or out of date. The copy lacks an output that was written at
-/// the same step as the checkpoint, but after it.
+/// Of two indices, returns the text of the one that lists more outputs up to a step: the index in `file`, or its copy
+/// `kept` in a checkpoint. After a power failure, the file may be torn or out of date. The copy lacks an output that
+/// was written at the same step as the checkpoint, but after it.
 std::string fullerIndex(const std::filesystem::path& file, const std::string& kept, int step);
 
 }  // namespace tushar::output

@@ -89,12 +89,12 @@ void choose(hid_t space, const VirtualPart& part) {
   H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, extent.data(), nullptr);
 }
 
-/// The largest number of parts of one dataset. It is limited because HDF5 keeps several copies of each part in memory,
-/// about 2.6 kB (1.10, by a heap profile), until the file is closed. A dataset with more parts shows other datasets of
-/// this file instead, each of which shows up to this many parts.
+/// The largest number of parts in one virtual dataset. It is limited because HDF5 keeps several copies of each part in
+/// memory until the file is closed: about 2.6 kB per part (HDF5 1.10, measured with a heap profiler). With more parts,
+/// the dataset shows further virtual datasets of the same file, each of which shows at most this number of parts.
 constexpr std::size_t mostParts = 256;
 
-/// Returns the end of the parts that one dataset contains; parts that begin at the same entry are not separated.
+/// Returns the end of the parts that one virtual dataset shows; parts that begin at the same entry stay together.
 std::size_t endOfRun(const std::vector<VirtualPart>& parts, std::size_t begin) {
   std::size_t end = std::min(begin + mostParts, parts.size());
   while (end < parts.size() && parts[end].first[0] == parts[end - 1].first[0]) ++end;
@@ -134,14 +134,15 @@ Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
 }
 
-/// Whether a draft collects this instead of a file.
+/// If a draft collects the content instead of a file, adds a text to its form and returns true.
 bool Hdf5File::isDrafted(const std::string& text) const {
   if (!draft_ || !draft_->collects()) return false;
   draft_->share(text);
   return true;
 }
 
-/// The same for a number by which files may differ, which a draft may also mark.
+/// Like the function above, for a number by which files may differ; the draft records the number, or replaces it by a
+/// mark.
 template <class Number>
 bool Hdf5File::isDrafted(const std::string& object, const char* name, Number& value) const {
   const bool collects = isDrafted(object + " " + name);

@@ -33,12 +33,12 @@ enum class Precision { asAsked, full };
 /// reason: the system's or, if the system gives none, HDF5's innermost error. HDF5 itself prints no errors.
 class Hdf5File {
  public:
-  /// Creates the file, replacing an existing one. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
-  /// packed by gzip at level `compression` if that is above 0. Datasets have attributes only if `describes`.
-  /// `draft`, if any, marks the values of attributes and texts by which files may differ.
+  /// Creates the file, replacing an existing one. Real numbers are stored in 4 bytes if `doubleAsFloat` is true, and
+  /// all values are compressed by gzip at level `compression` if that is above 0. Datasets have attributes only if
+  /// `describes` is true. If `draft` is given, it marks the values of attributes and texts by which files may differ.
   Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression, bool describes = true,
            HeadDraft* draft = nullptr);
-  /// Makes no file: `draft` collects what it would hold.
+  /// Makes no file: `draft` collects the content instead.
   explicit Hdf5File(HeadDraft& draft) : Hdf5File("", false, 0, true, &draft) {}
   /// Closes the file if close() was not called; errors are then lost.
   ~Hdf5File();

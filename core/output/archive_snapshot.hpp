@@ -48,7 +48,7 @@ std::uint64_t bytesInFlight(const Snapshot& snapshot);
 /// A copy of a snapshot that keeps the numbers of values, but not the values.
 Snapshot withoutValues(Snapshot snapshot);
 
-/// A source for an array whose values have been moved or are stored elsewhere: it only knows their number.
+/// A source for an array whose values have been moved or are stored elsewhere: it provides only their number.
 std::shared_ptr<const Source> valuesElsewhere(std::size_t entries);
 
 /// The path of a particle array in the HDF5 file: `/particles/gas/p.density`.

@@ -205,7 +205,7 @@ void XdmfIndex::resume(const ArchiveIndex& index) {
     try {
       head = readHead(file_.parent_path() / outputName(step), index);
     } catch (const FileError&) {
-      // It cannot be shown then, and has been removed or damaged by others.
+      // The output has been removed or damaged from outside, and cannot be shown.
     }
     if (head) add(*head);
   }

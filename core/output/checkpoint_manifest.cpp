@@ -94,7 +94,7 @@ std::vector<ByteRange> outside(const std::vector<ByteRange>& ranges, std::uint64
   return others;
 }
 
-/// The lines of a file for the manifest; waits until it is on the disk, if asked.
+/// The lines of a file for the manifest; if requested, waits until the file is on the disk.
 std::string linesOfFile(const fs::path& file, std::uint64_t size, const std::vector<ByteRange>& ranges,
                         const Writers& writers, bool waitsForDisk) {
   std::vector<std::uint64_t> sums(ranges.size() + 1);

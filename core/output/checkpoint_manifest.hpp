@@ -18,15 +18,15 @@ struct FilePart {
   std::uint64_t sum = 0;  ///< checksum (ByteSum), for parts listed in a manifest
 };
 
-/// Format of manifests, raised whenever older readers would misread them. Format 1 had hashes of files and of their
-/// blocks, 2 sums of files and their parts; neither states its number.
+/// Format of manifests, raised whenever older readers would misread them. Format 1 contained hashes of files and of
+/// their blocks, format 2 sums of files and of their parts; neither states its own number.
 inline constexpr int manifestFormat = 3;
 
 /// Writes the file `manifest` into a folder. Its lines are `format 3`; the sum, the size and the name of each file; and
-/// `sum first-last name` for each part of 64 kB and more, whose bytes the sum of its file leaves out. The last line is
-/// the XXH64 of those before. The writers share the bytes among themselves. Everything is then on the disk, unless
-/// `waitsForDisk` is false. Collective; all have the same parts. FileError on a rank that cannot, FailedElsewhere on
-/// the others.
+/// `sum first-last name` for each part of 64 kB or more, whose bytes are not included in the sum of the file. The last
+/// line is the XXH64 of all lines before it. The writers divide the bytes among themselves. On return, everything is on
+/// the disk, unless `waitsForDisk` is false. Collective; all ranks pass the same parts. Throws FileError on a rank that
+/// fails, and FailedElsewhere on the others.
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {},
                    const std::vector<FilePart>& parts = {}, bool waitsForDisk = true);
 

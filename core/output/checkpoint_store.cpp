@@ -76,7 +76,7 @@ void CheckpointStore::bringToDisk(int step) const {
   });
 }
 
-/// Removes the oldest of those that are more than the cycle, except one.
+/// Removes the oldest checkpoints beyond the cycle, but not that of step `except`.
 void CheckpointStore::removeOldest(int except) const {
   const std::vector<int> all = steps();
   for (std::size_t k = 0; k + static_cast<std::size_t>(cycle_) < all.size(); ++k)

@@ -16,16 +16,17 @@ namespace tushar::output {
 ///                             t00040/    the one before
 ///                             t00050/    files, and the manifest, with their checksums
 ///
-/// A checkpoint is written under a temporary name, brought to the disk, and then renamed; only then LATEST is replaced
-/// (by a rename, too), and only then the oldest is removed. So a run that is killed, or finds the disk full, leaves the
-/// checkpoints before as they were. Where checkpoints follow one another so fast that the disk would set the pace, some
-/// do not wait for it. Then the last one on the disk is kept besides, for the power may fail before others are.
+/// A checkpoint is written under a temporary name, flushed to the disk, and then renamed. Only then is LATEST replaced
+/// (also by a rename), and only after that is the oldest checkpoint removed. So if a run is killed, or the disk becomes
+/// full, the earlier checkpoints stay intact. If checkpoints follow one another so fast that the disk would slow down
+/// the run, some do not wait for the disk. The last checkpoint on the disk is then kept in addition, because the power
+/// may fail before later ones have been flushed.
 class CheckpointStore {
  public:
   /// How a checkpoint is written.
   struct Pace {
     bool waitsForDisk = true;  ///< whether it is on the disk when write() returns
-    int lastOnDisk = -1;       ///< the step of another one that is not to be removed, unless the new one is on the disk
+    int lastOnDisk = -1;       ///< step of another checkpoint, which is kept unless the new one is on the disk
   };
 
   /// `cycle` is the number of checkpoints to keep, at least 1. No folder is made before the first write().
@@ -40,8 +41,8 @@ class CheckpointStore {
   void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill) const {
     write(step, fill, Pace{});
   }
-  /// Waits until a checkpoint is on the disk that write() did not bring there; then removes those beyond the
-  /// cycle. Collective.
+  /// Waits until a checkpoint that write() left in memory is on the disk; then removes those beyond the cycle.
+  /// Collective.
   void bringToDisk(int step) const;
   /// Makes the checkpoint of a step the latest one, and removes all later checkpoints.
   void goBackTo(int step) const;

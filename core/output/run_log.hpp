@@ -20,11 +20,11 @@ struct RunRecord {
 };
 
 /// The file `run.json` in the folder of an archive: a list of the runs that wrote to the archive, with dates (UTC);
-/// each start and each restart is an entry. Dates are not stored in outputs, so that equal results have equal bytes. A
-/// run without an end was killed.
+/// each start and each restart is an entry. Dates are not stored in outputs, so that the files of equal results are
+/// bitwise equal. A run without an end was killed.
 class RunLog {
  public:
-  /// The format of the archive, raised when an older sus would mistake a newer archive for a damaged one. 2: the
+  /// The format of the archive, raised when an older sus would otherwise report a newer archive as damaged. 2: the
   /// manifests of checkpoints contain sums of parts of files. 3: they have a format of their own.
   static constexpr int format = 3;
 

@@ -40,7 +40,7 @@ struct Begun {
   std::vector<std::uint64_t> rooms;  ///< the offset of each dataset that has a source
 };
 
-/// Whether a file is so small that its form may be kept in memory.
+/// Whether a file is so small that an image of it may be kept in memory.
 bool isSmall(const Storage& how, const std::vector<Dataset>& datasets) {
   constexpr std::uint64_t most = std::uint64_t{1} << 20;
   std::uint64_t bytes = 0;
@@ -48,7 +48,7 @@ bool isSmall(const Storage& how, const std::vector<Dataset>& datasets) {
   return bytes <= most && how.compression == 0 && !how.doubleAsFloat;
 }
 
-/// Adds what is in each file: the offset of each dataset, if there is a file.
+/// Writes the header, and makes the datasets without their values; returns the offset of each dataset.
 std::vector<std::uint64_t> roomsIn(Hdf5File& file, const std::function<void(Hdf5File&)>& header,
                                    const std::vector<Dataset>& datasets) {
   header(file);
@@ -57,8 +57,8 @@ std::vector<std::uint64_t> roomsIn(Hdf5File& file, const std::function<void(Hdf5
   return rooms;
 }
 
-/// Makes a small file from the image of one of its form, which HDF5 has made before or makes now; false if there is
-/// none.
+/// Makes a small file by copying an image of a file of the same form. HDF5 makes the first file of each form, from
+/// which the image is taken. Returns false if the form has no image.
 bool beginFromImage(Begun& begun, const std::filesystem::path& path, const Storage& how,
                     const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets) {
   static HeadImages images;

@@ -18,7 +18,7 @@ class Writers {
   /// value of `count` on rank 0 applies to all ranks. Collective.
   static Writers spread(const mpi::Communicator& ranks, int count);
 
-  /// Returns a selection in which only those writers remain that pass `true`, and rank 0. Collective.
+  /// Returns a selection that contains rank 0 and the writers that pass `true`. Collective.
   Writers only(bool mine) const;
 
   const mpi::Communicator& ranks() const { return *ranks_; }

@@ -209,7 +209,8 @@ std::string rebalancingLine(const Report& report) {
 
 std::string recutsLine(const Report& report) {
   if (report.recuts == 0) return "";
-  return fmt::format("  patches were cut elsewhere {}, to share particles evenly\n", counted(report.recuts, "time"));
+  return fmt::format("  the cuts between patches were moved {}, to share particles evenly\n",
+                     counted(report.recuts, "time"));
 }
 
 std::string compressionLine(const Compression& use) {

@@ -12,7 +12,7 @@
 
 namespace tushar::report {
 
-/// The norms of one error; NaN for a norm without a meaning.
+/// The norms of one error; NaN for a norm that is not meaningful.
 struct ErrorNorms {
   std::string field, place;
   std::map<std::string, double> norms;  ///< value of each norm: L1, L2, max, relative
@@ -52,8 +52,8 @@ struct Compression {
   double bytes = 0, packed = 0;     ///< size of the values without and with compression [bytes]
   double packing = 0, writing = 0;  ///< time spent on compressing, and on writing the result [s]
 
-  /// The time that compression saved [s]: what writing all bytes uncompressed at the same speed would have added, minus
-  /// the time for compressing; negative if compression did not pay off.
+  /// The time that compression saved [s]: the additional time for writing all bytes uncompressed at the same speed,
+  /// minus the time for compressing; negative if compression did not pay off.
   double savedSeconds() const { return packed > 0 ? writing * (bytes / packed - 1) - packing : 0; }
 };
 
@@ -86,7 +86,7 @@ struct Report {
   Compression compression;
   TimeUse use;
   Rebalancing rebalancing;
-  int recuts = 0;  ///< how often patches were cut elsewhere, to share particles evenly
+  int recuts = 0;  ///< how often the cuts between patches were moved, to share particles evenly
   /// Number of cells of each level at the end, the coarsest first; 0 for a single level.
   std::vector<long> levels;
   double updates = 0;                ///< cell updates: the number of cells of all levels, summed over the steps

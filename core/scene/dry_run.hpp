@@ -13,7 +13,7 @@ namespace tushar::scene {
 struct DryRun {
   int rank = 0, ranks = 1;
   int patches = 0, patchesOfAll = 0;  ///< number of patches of this rank, and of the whole grid
-  /// In a step: number of tasks kept, and of their calls over patches and materials.
+  /// In a step: number of tasks kept, and number of their calls on all patches and materials.
   int tasks = 0, placements = 0;
   int neighbours = 0;  ///< number of ranks to which it sends ghosts
   int messages = 0;    ///< number of messages sent in a step, with ghosts and with migrating particles

@@ -18,8 +18,8 @@ simulation::Problem readScene(const std::string& path, const std::vector<std::st
                               const simulation::Catalogue& catalogue, const grid::Workers& workers = {},
                               grid::Share share = {});
 
-/// Writes the manual of the sections that all components share: Time, DataArchiver, Grid and AMR. That of AMR includes
-/// the parts that belong to individual components.
+/// Writes the manual of the sections that all components share: Time, DataArchiver, Grid and AMR. The manual of AMR
+/// includes the parts that belong to individual components.
 void describeSharedSections(std::ostream& out, const simulation::Catalogue& catalogue);
 
 /// Reads the `Time` section.
@@ -65,8 +65,8 @@ void describeArchive(std::ostream& out);
 void describeGrid(std::ostream& out);
 void describeAmr(std::ostream& out, const simulation::Catalogue& catalogue);
 
-/// The schemas of the shared sections, for editors. That of Grid contains the boundary labels and words of a component,
-/// and that of AMR its name.
+/// The schemas of the shared sections, for editors. The schema of Grid contains the boundary labels and words of a
+/// component, and the schema of AMR its name.
 const input::SchemaBase& metaForm();
 const input::SchemaBase& timeForm();
 const input::SchemaBase& archiveForm();

@@ -100,10 +100,10 @@ const Schema<VariableTag>& variableSchema() {
       Schema<VariableTag>("Variable", "A refinement criterion.")
           .location(&VariableTag::where)
           .requiredAttribute("name", &VariableTag::name, "1",
-                             "a cell variable, such as c.density; or particles, which takes no other attribute: the "
-                             "finest level follows them in any case")
+                             "a cell variable, such as c.density; or particles, without other attributes, since the "
+                             "finest level always follows them")
           .optionalAttribute("value", &VariableTag::refine, "1",
-                             "cells are refined where the indicator is above this (for type below: where it is below); "
+                             "cells are refined where the indicator is above this or, for type below, is below it; "
                              "required, except for particles")
           .attributeValue("matl", &VariableTag::material, "all", "1", "name or index of the material, or all")
           .choiceAttribute(
@@ -119,8 +119,8 @@ const Schema<VariableTag>& variableSchema() {
               "gradient: in the unit of the variable per m, as in Uintah; above, below: the value itself")
           .ours()
           .optionalAttribute("coarsen", &VariableTag::coarsen, "1",
-                             "cells are not coarsened where the indicator is above this (for type below: where it is "
-                             "below); half of value by default")
+                             "cells are not coarsened where the indicator is above this or, for type below, is below "
+                             "it; half of value by default")
           .ours()
           .check(checkThresholds);
   return schema;

@@ -23,7 +23,8 @@ const Schema<GridBox>& boxSchema() {
           .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
                     input::atLeast(1))
           .optional("patches", &GridBox::patches, "1",
-                    "number of patches along x, y, z at the start (the grid of solids may be cut anew); if neither "
+                    "number of patches along x, y, z at the start (during a run, the patches of solids may change); if "
+                    "neither "
                     "this nor autoPatch is given, it depends on the number of threads and ranks",
                     input::atLeast(1))
           .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, instead of <patches>",

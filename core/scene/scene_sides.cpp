@@ -207,7 +207,7 @@ std::optional<Location> givenBefore(const ConditionSection& given, const Locatio
 struct ReadFace {
   const SideWords& words;
   const Element& sides;  ///< the BoundaryConditions section
-  int axis;              ///< axis across the face
+  int axis;              ///< axis normal to the face
   /// Conditions of this face, including those of the same part that have been read before.
   std::vector<grid::BoundaryCondition>& conditions;
   SeenConditions& seen;  ///< the location of each condition

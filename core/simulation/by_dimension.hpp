@@ -18,7 +18,7 @@ std::unique_ptr<Component> makeByDimension(const grid::Level& level, const Argum
   return std::make_unique<C<3>>(arguments...);
 }
 
-/// Reads the section that `schema` describes from the scene with the tag `root`; reports an error if the section is
+/// Reads the section that `schema` describes, below the scene's root tag `root`; reports an error if the section is
 /// missing or given twice.
 template <class S>
 S readSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {

@@ -16,7 +16,7 @@
 
 namespace tushar::simulation {
 
-/// Builds a component on a grid, with settings that have been read from the scene before.
+/// Builds a component on a grid, with settings that have already been read from the scene.
 using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level&)>;
 
 /// A section that a component reads, for the schemas of editors.
@@ -49,7 +49,7 @@ struct ComponentKind {
   /// Reads the component's sections from the root of the scene; reports every problem to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< writes the manual of the component
-  /// Number of layers of nodes that the scene needs outside the grid; none if the function is empty.
+  /// Number of layers of nodes that the scene needs outside the grid; 0 if the function is empty.
   std::function<int(const input::Element& root)> nodesBeyond;
   /// The smallest number of cells of a block along an axis that the tasks of a scene allow (see
   /// tasks::fewestCellsOfBlock); 4 if the function is empty. Smaller blocks in a scene are replaced, with a note.

@@ -28,7 +28,8 @@ class Checkpoints {
   void writeLast();
   /// Whether a checkpoint is due after the step that has just ended.
   bool isDue() const;
-  /// Writes a checkpoint, unless this step has one. Of several within seconds only the first waits for the disk.
+  /// Writes a checkpoint, unless this step has one. Of several checkpoints within seconds, only the first waits for the
+  /// disk.
   void write();
   /// Waits until the last checkpoint is on the disk.
   void settle();
@@ -42,15 +43,15 @@ class Checkpoints {
   /// Reads the checkpoint; returns false if it is damaged, so that the previous one must be read.
   bool read();
   output::CheckpointStore store() const;
-  /// Notes that the last checkpoint is on the disk, which has taken since `started`.
+  /// Records that the last checkpoint is on the disk; writing it began at `started`.
   void noteOnDisk(Clock::time_point started);
 
   RunState& run_;
   Outputs& outputs_;
   std::optional<CheckpointControl> control_;  ///< when checkpoints are due; empty if the scene has none
   int last_ = -1;                             ///< step of the checkpoint that was last written or read
-  int on_disk_ = -1;                          ///< step of the last one that is known to be on the disk
-  Clock::time_point next_wait_;               ///< when the next one is to wait for the disk
+  int on_disk_ = -1;                          ///< step of the last checkpoint that is known to be on the disk
+  Clock::time_point next_wait_;               ///< time from which the next checkpoint waits for the disk
   double seconds_ = 0, memory_ = 0;
   std::function<void(const std::string&)> warn_;
 };

@@ -79,7 +79,7 @@ std::optional<InputProblem> problemOfSmallerSteps(const std::vector<tasks::Task>
   }
   if (first.empty()) return std::nullopt;
   if (others > 0)
-    first += fmt::format(", and {} {} smaller steps out, too", counted(others, "other task"),
+    first += fmt::format(", and {} also {} out smaller steps", counted(others, "other task"),
                          others == 1 ? "rules" : "rule");
   return InputProblem{where, "AMR/useLockStep", first + ": all levels must take the same time step, as by default"};
 }

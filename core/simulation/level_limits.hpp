@@ -21,9 +21,9 @@ namespace tushar::simulation {
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,
                                            const Location& where);
 
-/// The first task of a step that prevents smaller steps on finer levels, with its label, and the number of further such
-/// tasks. A task allows smaller steps if it computes cells from the old state and from results of earlier tasks in the
-/// same cell. Other tasks would read new values that another level does not have yet, or add up values of different
+/// The first task of a step that rules out smaller steps on finer levels, with its label, and the number of further
+/// such tasks. A task allows smaller steps if it computes cells from the old state and from results of earlier tasks in
+/// the same cell. Other tasks would read new values that another level does not have yet, or add up values of different
 /// times. `where` is the tag that requests smaller steps.
 std::optional<InputProblem> problemOfSmallerSteps(const std::vector<tasks::Task>& tasks, const Location& where);
 

@@ -10,11 +10,11 @@ namespace tushar::simulation {
 /// Performs the steps of a run in which finer levels take smaller steps.
 ///
 /// A level makes its step from the old state. Then the next finer level makes steps up to the same time: two in
-/// general, one if that is stable, three or more if signals have become faster meanwhile. Its ghosts in coarser cells
-/// are interpolated between the old and the new values of these cells. Then the flux out of coarse cells is replaced by
-/// the sum of the finer steps' fluxes, and the new state of the coarser level becomes its old one. After each step of
-/// the coarsest level, all levels are at the same time. Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989)
-/// 64; the number of finer steps is our own choice.
+/// general, one if that is stable, three or more if signals have become faster in the meantime. Its ghosts in coarser
+/// cells are interpolated between the old and the new values of these cells. Then the flux out of coarse cells is
+/// replaced by the sum of the finer steps' fluxes, and the new state of the coarser level becomes its old one. After
+/// each step of the coarsest level, all levels are at the same time. Source: M. J. Berger and P. Colella, J. Comput.
+/// Phys. 82 (1989) 64; the number of finer steps is our own choice.
 ///
 /// All ranks make the same calls.
 class LevelSteps {

@@ -41,7 +41,7 @@ std::string whyNoLibrary(const fs::path& file) {
   ElfW(Ehdr) head{};
   in.read(reinterpret_cast<char*>(&head), sizeof head);
   if (!std::equal(head.e_ident, head.e_ident + SELFMAG, ELFMAG)) return "it is not a shared library";
-  // The table of sections is the last thing in a file. dlopen would end the program by SIGBUS where pages are missing.
+  // The table of sections is at the end of a file. If pages were missing, dlopen would end the program by SIGBUS.
   const std::uintmax_t end = head.e_shoff + std::uintmax_t(head.e_shnum) * head.e_shentsize;
   return !in || fs::file_size(file) < end ? "the file is truncated" : "";
 }

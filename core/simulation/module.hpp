@@ -8,7 +8,7 @@ namespace tushar::simulation {
 /// The reason why this program cannot load a module with this ABI; empty if it can.
 std::string misfitOf(const ModuleAbi& module);
 
-/// A catalogue of all modules of this program and of the user, each loaded when it is first needed. Those of the user
+/// A catalogue of all modules of this program and of the user, each loaded when it is first needed. The user's modules
 /// are the given files, and the files in the folders of TUSHAR_PLUGINS, which are separated by `:`. Throws
 /// std::runtime_error with a sentence for each file that cannot be loaded.
 Catalogue openModules(const std::vector<std::string>& files);

@@ -14,14 +14,15 @@ namespace tushar::simulation {
 
 namespace {
 
-/// Fewer than where the work is not known: the particles at every cut are added to the nodes of both sides.
+/// Patches per worker. Few suffice, because the work is known, and each cut has a cost: the particles next to it are
+/// added to the nodes on both sides.
 constexpr int patchesPerWorker = 2;
-/// Load of a patch at which its worker may still be busy when others have nothing to do.
+/// Load of the largest patch above which its worker may still be busy when the others are idle.
 constexpr double heavy = 0.7;
 /// Factor by which other cuts must reduce the load.
 constexpr double worthwhile = 0.8;
 
-/// Cuts an axis into `parts` that have as equal sums of `work` as possible, each of one cell at least.
+/// Cuts an axis into `parts` parts of at least one cell each, whose sums of `work` are as equal as possible.
 std::vector<int> evenCuts(const std::vector<double>& work, int parts) {
   const int cells = static_cast<int>(work.size());
   std::vector<double> before(work.size() + 1, 0.0);
@@ -37,7 +38,7 @@ std::vector<int> evenCuts(const std::vector<double>& work, int parts) {
   return cuts;
 }
 
-/// Number of cells from the first plane with work to the last.
+/// Number of planes of cells from the first one with work to the last; at least 1.
 int extentOf(const std::vector<double>& work) {
   const auto isAny = [](double one) { return one > 0; };
   const auto first = std::find_if(work.begin(), work.end(), isAny);

@@ -57,7 +57,7 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
 /// Whether a variable contains fluxes, which exist only during a step.
 bool isOfRims(const std::string& name) { return name.starts_with("rim."); }
 
-/// The variables of a step that the next step needs, except those that are computed anew before each step. Includes the
+/// The variables of a step that the next step needs, except those that are recomputed before each step. Includes the
 /// ids of particles if there are particles.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
   std::erase_if(needed, [&](const std::string& name) {
@@ -187,8 +187,8 @@ std::vector<std::string> Phases::remarksOn(const SaveRequest& save) const {
   for (const int number : numbersIn(save.material))
     if (number == count)
       remarks.push_back(
-          fmt::format("in Uintah material {} means all materials together; here '{}' is saved for each of them", number,
-                      save.label));
+          fmt::format("in Uintah, material {} means all materials together; here, '{}' is saved for each of them",
+                      number, save.label));
     else if (number > count)
       remarks.push_back(fmt::format("does nothing for {}: materials are numbered from 0 to {}", number, count - 1));
   return remarks;

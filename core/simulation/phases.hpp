@@ -57,7 +57,7 @@ class Phases {
   /// Names of the saved reductions.
   const std::vector<std::string>& savedGlobals() const { return saved_globals_; }
   const std::vector<std::string>& materials() const { return materials_; }
-  /// Totals whose drift the component can report.
+  /// Totals whose drift the report can show.
   const std::vector<ConservedTotal>& totals() const { return totals_; }
 
   void printSchedule(std::ostream& out) const;
@@ -74,8 +74,8 @@ class Phases {
   void validateAll() const;
   void noteMaterials();
   bool isMaterial(const std::string& name) const;
-  /// The requests with names of materials instead of indices; as in Uintah, one more than the last index means all
-  /// materials, and higher ones mean none.
+  /// Replaces indices of materials in requests by their names. As in Uintah, the index after the last one means all
+  /// materials, and higher indices mean none.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   /// The diagnostics, followed by the task that marks cells to refine; empty if the grid does not change. Throws
   /// InputError for a criterion whose variable is not a cell variable.

@@ -38,12 +38,12 @@ class TimeControl {
 
   /// The next time step [s]: timestep_multiplier times `stable`, limited by max_delt_increase, delt_min and delt_max;
   /// at the start no longer than delt_init, even if that is below delt_min; and, if the scene requests it, such that
-  /// the step ends exactly at maxTime or the next output. If only a rest due to rounding would remain until maxTime,
-  /// the step includes it. Throws NumericalError if the step is not positive or too small to advance time.
+  /// the step ends exactly at maxTime or the next output. If only a remainder due to rounding would be left before
+  /// maxTime, the step includes it. Throws NumericalError if the step is not positive or too small to advance time.
   double next(const data::Minimum& stable, double nextOutput);
-  /// A shorter time step [s] from the same time: the previous one times the factor `asked`, which is limited to 0.1 to
-  /// 0.9. Throws NumericalError if the step has already been repeated 20 times, or if the shorter step is below
-  /// delt_min or too small to advance time.
+  /// A shorter time step [s] from the same time: the previous one times the factor `asked`, which is limited to the
+  /// range from 0.1 to 0.9. Throws NumericalError if the step has already been repeated 20 times, or if the shorter
+  /// step is below delt_min or too small to advance time.
   double repeat(const data::Minimum& asked);
   /// Continues another run after `step` steps, the last of length `delT` [s], at `time` [s].
   void resume(int step, double time, double delT);

@@ -50,7 +50,7 @@ Balance::Balance(Vec b) {
   check(VecDuplicate(b, b_.address()));
 }
 
-/// Chooses s = (max |a| / |a_ii|)^(1/2); 1 if there is no diagonal.
+/// Chooses s_i = (max_k |a_kk| / |a_ii|)^(1/2), and s_i = 1 where a_ii is 0.
 void Balance::scale(PetscMatrix& matrix) {
   check(MatGetDiagonal(matrix, s_));
   check(VecAbs(s_));

@@ -47,8 +47,8 @@ class Session {
     int underLauncher = 0;
     MPI_Initialized(&underLauncher);
     if (underLauncher) PETSC_COMM_WORLD = MPI_COMM_SELF;  // ranks without patches do not come here
-    // Without a launcher Open MPI would start a daemon for processes that a program may start later: a fifth of the
-    // processor time of a small run.
+    // Without a launcher, Open MPI would start a daemon for processes that the program may start later, which would
+    // take a fifth of the processor time of a small run.
     if (!underLauncher) setenv("OMPI_MCA_ess_singleton_isolated", "true", 0);
     if (!started) check(PetscInitializeNoArguments());
     check(PetscPushErrorHandler(keepMessage, nullptr));
@@ -165,7 +165,7 @@ void configure(KSP krylov, const LinearSettings& settings) {
     check(KSPSetPCSide(krylov, PC_RIGHT));
     // Without it, nearly singular systems fail through rounding.
     check(KSPGMRESSetCGSRefinementType(krylov, KSP_GMRES_CGS_REFINE_IFNEEDED));
-    // PETSc restarts after 30: nearly incompressible systems then do not converge.
+    // By default, PETSc restarts after 30 iterations; nearly incompressible systems then do not converge.
     check(KSPGMRESSetRestart(krylov, std::min(settings.maxIterations, 200)));
   }
   PC preconditioner = nullptr;

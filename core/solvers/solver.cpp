@@ -84,7 +84,7 @@ std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>
   if (mine) place = {(*mine)[0], (*mine)[1], (*mine)[2]};
   ranks.max(place);
   if (!std::isfinite(place[0])) return "";
-  return fmt::format("; the greatest residual is {} at ({:g}, {:g}, {:g})", what, place[0], place[1], place[2]);
+  return fmt::format("; the largest residual is {} at ({:g}, {:g}, {:g})", what, place[0], place[1], place[2]);
 }
 
 }  // namespace tushar::solvers

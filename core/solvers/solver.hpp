@@ -48,7 +48,7 @@ struct Outcome {
   int krylovIterations = 0;       ///< total number of Krylov iterations
   std::vector<double> residuals;  ///< residual norms at the start and after each iteration; for a nonlinear solve,
                                   ///< after each Newton iteration
-  /// residual norms of the linear solve whose failure ended Newton's method, if one did
+  /// Residual norms of the linear solve whose failure ended Newton's method, if there was one.
   std::vector<double> krylovResiduals;
   int worst = -1;  ///< index of the unknown with the largest residual at the end; -1 if it is on another rank
   double assembly = 0, setup = 0, solve = 0;  ///< time for matrix, preconditioner and iterations [s]

@@ -199,7 +199,7 @@ PlainArgument<T> with(T value) {
   return {std::move(value)};
 }
 
-/// Whether an argument represents variables of a material on a patch, so that a task over several materials or patches
+/// Whether an argument represents variables of a material on a patch; a task over several materials or patches then
 /// gets one view for each.
 template <class Argument>
 inline constexpr bool isOfMaterialAndPatch = false;

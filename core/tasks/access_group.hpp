@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// A set for views of no particles.
+/// An empty set, for views without particles.
 const data::ParticleSet& noParticles();
 
 /// Placeholder for a view while a group only declares its accesses.
@@ -69,7 +69,7 @@ class BindEach {
   int next_;
 };
 
-/// The argument that `all` makes: `from(take)` makes the group, with the settings that it holds.
+/// The argument made by the function `all`: `from(take)` makes the group, with the settings stored in `from`.
 template <class Group, class From>
 struct GroupArgument {
   From from;

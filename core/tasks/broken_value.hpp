@@ -30,8 +30,8 @@ struct BrokenValue {
 };
 
 /// Finds the first value that violates its bound among the values that a task has written, in the order of variables,
-/// cells and ids, which does not depend on the layout. None if all bounds hold. If a level is given, only its patches
-/// count. Collective.
+/// cells and ids, which does not depend on the layout. Returns none if all bounds hold. If a level is given, only its
+/// patches count. Collective.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const std::vector<Bounded>& written, int level = -1);
 
 /// The first value of one variable that violates `bound`, which may differ from the bound of its label.

@@ -20,7 +20,7 @@ Rows<Byte> rowsOf(Byte* values, const grid::Box& stored, const Index3& first, st
   return {values + stored.offset(first) * bytes, row, row * stored.extent(1)};
 }
 
-/// Copies rows of `Length` bytes; 0: of `length` bytes.
+/// Copies rows of `Length` bytes or, if that is 0, of `length` bytes.
 template <std::size_t Length>
 void copyRows(const grid::Box& box, const Rows<const std::byte>& from, const Rows<std::byte>& to, std::size_t length) {
   for (std::ptrdiff_t z = 0; z < box.extent(2); ++z) {

@@ -13,8 +13,8 @@ struct KnownValues {
   grid::Box stored;
 };
 
-/// Copies the values of a box of cells or nodes, of `bytes` bytes each, to `to`: those of index c are at c - `shift` in
-/// `from`.
+/// Copies the values of a box of cells or nodes, of `bytes` bytes each, to `to`; the value for index c is at index c -
+/// `shift` in `from`.
 void copyCells(const grid::Box& box, const Index3& shift, std::size_t bytes, const KnownValues& from,
                const CellValues& to);
 

@@ -7,7 +7,8 @@
 
 namespace tushar::tasks {
 
-/// Copies one value; optimised for values of one, two, three, four, six and nine numbers, the most frequent sizes.
+/// Copies one value; optimised for values of one, two, three, four, six and nine numbers, which are the most frequent
+/// sizes.
 inline void copyValue(const std::byte* from, std::byte* to, std::size_t bytes) {
   constexpr std::size_t number = sizeof(double);
   switch (bytes) {

@@ -25,7 +25,7 @@ struct SteppedByLevel {
   /// The step of one level: after the last task that keeps the fluxes of a variable, a task adds the fluxes times the
   /// step to a register, which sums over all steps within one step of the next coarser level.
   TaskList advance;
-  /// Runs on the coarser level after those steps: U += ± 1 / h (dt F - mean of the sums of dt F of the finer level).
+  /// Runs on the coarser level after the finer steps: U += ± 1 / h (dt F - mean of the finer level's sums of dt F).
   TaskList reflux;
 };
 SteppedByLevel withRegisters(const TaskList& list);

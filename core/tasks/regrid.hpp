@@ -20,7 +20,7 @@ struct PatchCosts {
 void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables,
             const PatchCosts& costs = {});
 
-/// Cuts a grid of one level elsewhere, and transfers the particles and the old values of cell variables to its new
+/// Moves the cuts of a grid of one level, and transfers the particles and the old values of cell variables to the new
 /// patches. All other values of patches are lost. All ranks that share the grid call it, between two steps.
 void recut(grid::Grid& grid, std::unique_ptr<grid::Tiling> next, data::Warehouse& warehouse,
            const MigratedVariables& variables, const PatchCosts& costs = {});

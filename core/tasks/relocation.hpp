@@ -52,7 +52,7 @@ class Relocation {
 
   /// Starts a step, or starts it again.
   void start() { losing_ = {}; }
-  /// Accepts the moves of the step.
+  /// Adds the particles lost in the accepted step to the total.
   void commit() { lost_ += std::exchange(losing_, {}); }
   /// Number of particles lost since the start.
   const LostParticles& lost() const { return lost_; }
@@ -110,7 +110,8 @@ class Relocation {
     std::vector<Outgoing> outgoing;  ///< those departed particles that move to other patches
     std::vector<Incoming> incoming;  ///< particles that enter a cell of the patch
     std::vector<Arrival> arrivals;
-    data::RowTable<int> firstIncoming{-1};  ///< by cell, or -1; rows that particles enter are open
+    data::RowTable<int> firstIncoming{-1};  ///< by cell: index of the first incoming particle, or -1; only rows that
+                                            ///< particles enter are open
     std::vector<Run> runs;                  ///< ascending
     std::vector<Entry> entries;             ///< ascending
     std::size_t packed = 0;                 ///< index of the first departed particle among those of all patches

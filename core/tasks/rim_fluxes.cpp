@@ -24,7 +24,7 @@ const grid::RimPiece& pieceOf(const std::vector<grid::RimPiece>& pieces, const G
   });
 }
 
-/// The finer faces behind those faces of a box of coarse cells that lie across one axis: the fluxes behind the first
+/// The finer faces behind those faces of a box of coarse cells that are normal to one axis: the fluxes behind the first
 /// coarse face, and the distances in memory between neighbouring finer faces along each axis.
 struct FinerFaces {
   const double* first;

@@ -94,12 +94,13 @@ unsigned childrenIn(const Box& box, const Index3& first) {
 template <int D>
 struct Family {
   const double* parent;
-  std::array<std::ptrdiff_t, D> stride;  ///< to the neighbours of the parent; 0: there are none on one side
-  double* first;                         ///< of the children
-  unsigned inside;                       ///< children that are wanted
+  std::array<std::ptrdiff_t, D> stride;  ///< distance to the parent's neighbours; 0: one is missing
+  double* first;                         ///< values of the first child
+  unsigned inside;                       ///< children to be computed, one bit each
 };
 
-/// `beside`: the distance in memory of each child from the first. `Components`: 0 if it is not known at compile time.
+/// Interpolates the children of a coarse cell. `beside`: the distance in memory of each child from the first.
+/// `Components`: 0 if it is not known at compile time.
 template <int D, int Components, bool AllInside>
 void interpolate(Family<D> family, const std::array<std::ptrdiff_t, 1 << D>& beside, int numbers) {
   const int components = Components > 0 ? Components : numbers;
@@ -118,7 +119,8 @@ void interpolate(Family<D> family, const std::array<std::ptrdiff_t, 1 << D>& bes
   }
 }
 
-/// A quarter of the slopes of numbers, whose neighbours are `stride` before and behind; 0: there are none on one side.
+/// Computes a quarter of the slope of each number, whose neighbours are `stride` places before and after it; `stride`
+/// is 0 if a neighbour is missing.
 void quarterSlopes(const double* middle, std::ptrdiff_t stride, std::ptrdiff_t count, double* quarter) {
   if (stride == 0) return static_cast<void>(std::fill_n(quarter, count, 0.0));
 #pragma GCC ivdep
@@ -167,7 +169,7 @@ class Interpolation {
                   : interpolate<D, Components, false>(family, beside_, components_);
   }
 
-  /// All children of a row of cells, to the same bits.
+  /// All children of a row of cells; bitwise equal to the children of single cells.
   void ofRow(const Index3& first, const Index3& last) {
     const std::ptrdiff_t cell = Components > 0 ? Components : components_, count = (last[0] - first[0] + 1) * cell;
     thread_local std::vector<double> quarters;

@@ -5,14 +5,14 @@
 #include "core/simulation/simulation.hpp"
 #include "tests/benchmark/plain_loop.hpp"
 
-// What the framework costs: the time loop of ups/mpm/sod.ups beside a plain hand-written loop of the same method.
+// The cost of the framework: the time loop of ups/mpm/sod.ups compared with a hand-written loop of the same method.
 // tools/benchmark runs both interleaved and prints the ratio.
 
 namespace {
 
 using namespace tushar;
 
-/// Measures the time loop of Sod's tube alone, with nothing saved, as the run's report gives it.
+/// Measures the time loop of Sod's tube, without output, as given by the report of the run.
 void framework(::benchmark::State& state) {
   const std::string resolution = "Grid/Level/Box/resolution=[" + std::to_string(state.range(0)) + ",1,1]";
   simulation::RunOptions options;

@@ -1,9 +1,10 @@
-// One HDF5 file by all ranks: each writes its part (MPI-IO), or sends it to the first, which writes (aggregation).
+// All ranks create one HDF5 file: each writes its part (MPI-IO), or sends it to the first rank, which writes
+// (aggregation).
 //
 //     mpirun -n 2 parallel_write [REPETITIONS]
 //
-// A field of 4096 x 4096 doubles (134 MB). Its columns or its rows are shared out: parts of a rank lie in pieces, or in
-// one.
+// A field of 4096 x 4096 doubles (134 MB). Ranks share its columns or its rows: the part of a rank is scattered over
+// the file, or contiguous.
 
 #include <fcntl.h>
 #include <hdf5.h>

@@ -6,9 +6,8 @@
 
 namespace tushar::benchmark {
 
-/// The gas method of Tran, Kim & Berzins on Sod's tube, in one dimension, as one writes it down: an array for each
-/// variable, a loop for each equation. No framework, no patches, no order of particles. What the framework's cost is
-/// measured against.
+/// The gas method of Tran, Kim & Berzins on Sod's tube, in one dimension, without framework, patches or an order of
+/// particles: an array for each variable, a loop for each equation. The cost of the framework is measured against this.
 class PlainLoop {
  public:
   explicit PlainLoop(int cells)

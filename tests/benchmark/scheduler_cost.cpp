@@ -5,9 +5,8 @@
 
 #include "tests/support/run.hpp"
 
-// What the scheduler costs: tasks that do nothing, one after another, each reading what the one before computed and
-// computing a variable of its own on patches of one cell, with and without ghosts; compiling such a list; and bringing
-// particles to their cells.
+// The costs of the scheduler: tasks that do nothing, each of which reads a variable of the previous one and computes
+// its own on patches of one cell, with and without ghosts; compiling such a list; and relocating particles.
 
 namespace {
 
@@ -92,8 +91,8 @@ void moveSome(const Patch& patch, const Material&, int one, data::ParticleView<c
   }
 }
 
-/// A step that moves particles and relocates them. Arguments: cells, patches, of how many particles one moves (0: none
-/// does).
+/// A step that moves particles and relocates them. Arguments: cells, patches, and n, where one of every n particles
+/// moves (0: none).
 void relocate(::benchmark::State& state) {
   const std::vector<Material> gas{{"gas"}};
   const int cells = static_cast<int>(state.range(0)), patches = static_cast<int>(state.range(1));

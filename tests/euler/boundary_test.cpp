@@ -3,7 +3,7 @@
 #include "components/euler/boundary.hpp"
 #include "tests/euler/gas_box.hpp"
 
-// What sides of the grid let in.
+// Gas that enters through the sides of the grid.
 
 namespace tushar::euler {
 

@@ -3,7 +3,7 @@
 #include "tests/euler/curved_riemann.hpp"
 #include "tests/euler/gas_box.hpp"
 
-// Gases with laws of their own.
+// Gases with various equations of state.
 
 namespace tushar::euler {
 

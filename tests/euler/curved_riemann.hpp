@@ -6,8 +6,8 @@
 
 #include "components/euler/gas.hpp"
 
-// The exact solution of a shock tube of a gas with any law, by numbers: shocks by their jump conditions, fans by fine
-// steps along isentropes.
+// The exact solution of a shock tube of a gas with any law, computed numerically: shocks from their jump conditions,
+// fans in fine steps along isentropes.
 
 namespace tushar::euler {
 
@@ -64,7 +64,7 @@ class OuterWave {
     const double before = pressureOf(front_), shrink = 1 / front_.density - 1 / density;
     const double energy = gas_.energyOf(front_.density, front_.last) / front_.density;
     const auto energyAt = [&](double pressure) { return density * (energy + 0.5 * (pressure + before) * shrink); };
-    // By secants; the excess is linear in the pressure where p is in the energy.
+    // By the secant method; the excess is linear in the pressure if the energy contains p.
     const auto excess = [&](double pressure) { return gas_.pressure(density, energyAt(pressure)) - pressure; };
     double pressure = gas_.pressure(density, density * energy), other = before, ofOther = excess(other);
     for (int k = 0; k < 30 && pressure != other; ++k) {

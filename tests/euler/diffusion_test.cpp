@@ -7,7 +7,7 @@
 #include "components/euler/tasks/add_varying_diffusion.hpp"
 #include "tests/euler/gas_box.hpp"
 
-// What viscosity, conduction and gravity change in a step, by the bodies of the tasks alone.
+// Changes due to viscosity, conduction and gravity in a step, computed by calls of task bodies.
 
 namespace tushar::euler {
 
@@ -22,7 +22,7 @@ Gas air() {
   return gas;
 }
 
-/// A gas that changes by diffusion alone.
+/// A gas that only diffusion changes.
 template <int D>
 class StillBox : public GasBox<D> {
  public:
@@ -40,7 +40,7 @@ class StillBox : public GasBox<D> {
                         view<const double>(oldEnergy, patch, 1)}},
                       0, dt, view<Vec<D>>(momentum, patch, 0), view<double>(energy, patch, 0), {});
   }
-  /// As above, by the task for viscosities that vary in space.
+  /// As above, with the task for viscosities that vary in space.
   void diffuse(const VaryingDiffusion& varying, double dt) {
     const auto oldMomentum = momentum;
     const auto oldEnergy = energy;
@@ -79,7 +79,7 @@ class StillBox : public GasBox<D> {
   }
 };
 
-/// A box with walls at rest across x, at two temperatures.
+/// A box between walls at rest, normal to x, at two temperatures.
 grid::Domain heatedBox(int cells, double lower, double upper) {
   grid::Domain domain = closedBox(1, cells);
   for (int side = 0; side < 2; ++side) {
@@ -91,7 +91,7 @@ grid::Domain heatedBox(int cells, double lower, double upper) {
   return domain;
 }
 
-/// Gas between two walls across y; the upper wall moves at 1 m/s along x.
+/// Gas between two walls normal to y; the upper wall moves at 1 m/s along x.
 grid::Domain shearedBox() {
   grid::Domain domain = closedBox(2, 16);
   domain.resolution[0] = 2;
@@ -163,7 +163,7 @@ TEST(Diffusion, KeepsTheEnergyOfAClosedBox) {
 }
 
 TEST(Diffusion, LeavesNothingThroughASlippingWallOrAnOpenSide) {
-  // Gas that moves along x past walls across y, which are planes of symmetry.
+  // Gas that moves along x past walls normal to y, which are planes of symmetry.
   for (const bool open : {false, true}) {
     grid::Domain domain = open ? openBox(2, 6) : closedBox(2, 6);
     for (int side = 0; side < 2; ++side) domain.boundaries.face(0, side).clear();
@@ -212,8 +212,8 @@ TEST(VaryingDiffusion, TakesTheLastSpongeLayer) {
 }
 
 TEST(VaryingDiffusion, HasOneStressAcrossLayersOfTwoViscosities) {
-  // Between walls at 0 and 1 m/s the stress is U / (sum of thickness / mu): mu 1 below y = 1/2 and 3 above it, where
-  // the face between them has their mean, which moves that place by a quarter of a cell in each layer's favour.
+  // Between walls at 0 and 1 m/s the stress is U / (sum of thickness / mu): mu 1 below y = 1/2 and 3 above it, and the
+  // mean, 2, at the face between them, which counts for the width of a cell.
   const auto rest = [](const Vec<2>&) { return State<2>{1, 0, 0, 1}; };
   StillBox<2> box(shearedBox(), rest, {});
   const VaryingDiffusion how{.uniform = {1, 0}, .sponges = {{Vec3(-1, 0.5, -1), Vec3(2, 2, 2), 3}}};

@@ -9,7 +9,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// How often stretches visit each cell of `held`, in memory order, and the largest number of cells of one.
+/// How often stretches visit each cell of `held`, in memory order, and the largest number of cells in a stretch.
 template <int D>
 std::pair<std::vector<int>, int> visitsOf(const Box& box, const Box& held) {
   std::vector<int> visits(held.size(), 0);

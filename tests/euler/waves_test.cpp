@@ -49,9 +49,9 @@ TEST(Waves, LeaveTheTube) {
 }
 
 TEST(Waves, RelaxToThePressureFarAway) {
-  // Sound goes to the wall and back in 2 L / c: what comes in at the side at t, w, and what arrives there of it later
-  // obey w' = -K (w(t) + w(t - 2 L / c)) / 2. Of w = exp(-s t): s L / c = sigma (1 + exp(2 s L / c)) / 2 = .05278. With
-  // slopes the side sees part of those that the limiter leaves of the last cell: nine tenths of it.
+  // Sound travels to the wall and back in 2 L / c. So the wave w(t) that enters at the side and its echo obey w' = -K
+  // (w(t) + w(t - 2 L / c)) / 2. For w = exp(-s t): s L / c = sigma (1 + exp(2 s L / c)) / 2 = .05278. With slopes, the
+  // limiter leaves nine tenths of this, because the side sees part of the slope in the last cell.
   for (const Reconstruction how : {Reconstruction::firstOrder, Reconstruction::musclHancock}) {
     GasBox<1> box(tube(50, 0.05, true), [](const Vec<1>&) { return gasAt(1, 0, far * (1 + 1e-4)); },
                   {.reconstruction = how});

@@ -89,8 +89,8 @@ BlockId blockAround(const BlockTree& tree, Index3 finest, int level) {
   return {level, finest};
 }
 
-/// The places that must be refined, found the slow way: ancestors, then the coarser of two leaves that touch and differ
-/// by more than one level, until there are none.
+/// The places that must be refined, found by brute force: ancestors, then repeatedly the coarser of two leaves that
+/// touch and differ by more than one level.
 std::vector<int> slowLevels(const Case& grid, const Blocks& refined) {
   Map map(grid.tree());
   const auto refine = [&](const BlockId& block) {

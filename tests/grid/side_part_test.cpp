@@ -7,7 +7,7 @@
 #include "core/grid/level.hpp"
 #include "tests/support/levels.hpp"
 
-// Which faces of a side belong to a part of it: those whose middle is in it.
+// The faces of a side that belong to a part of it are those whose middle is in the part.
 
 namespace tushar::grid {
 
@@ -121,7 +121,7 @@ TEST(PartsOfSides, HaveConditionsInPlaceOfThoseOfTheSide) {
   EXPECT_EQ(level.boundary(0, 0, heat, 1, 0)->value, 3);
   EXPECT_FALSE(level.boundary(0, 0, pressure, 1, 0));
   EXPECT_EQ(level.boundary(0, 0, heat, 1)->value, 1);
-  // The part says nothing of material 0.
+  // The part has no conditions for material 0.
   EXPECT_EQ(level.boundary(0, 0, heat, 0, 0)->value, 1);
   EXPECT_EQ(level.boundary(0, 0, pressure, 0, 0)->value, 2);
   domain.boundaries.parts[0][0].conditions.clear();

@@ -15,7 +15,7 @@ using test::problemOf;
 
 const std::string sod = "ups/ice/sod.ups", gases = "ups/ice/two_gases.ups";
 
-/// The tube of sod.ups with two gases A and B of these constants; B is in the `regions`.
+/// The tube of sod.ups with two gases A and B with these constants; B is in the `regions`.
 std::string binary(const std::string& constants, const std::string& regions, const std::string& module) {
   std::string scene = changedScene(
       sod, "  <DataAnalysis>",
@@ -121,7 +121,7 @@ TEST(BinaryProperties, AreRefusedWhereTheyHaveNoMeaning) {
 }
 
 TEST(BinaryProperties, GetHeatTogether) {
-  // From t = 0 on, 3 W/kg: of a box at rest whose energy is c_v T = 3.5 per mass.
+  // From t = 0 on, a box at rest with the energy c_v T = 3.5 per mass is heated by 3 W/kg.
   std::string scene = binary(unlike, region("0", "1", "0.25"), variable("c.pressure", "1"));
   scene = changedScene(scene, "<ICE><advection type=\"SecondOrder\"/>",
                        "<ICE><advection type=\"SecondOrder\"/><ADD_HEAT><add_heat_matls>[0]</add_heat_matls>"
@@ -132,8 +132,9 @@ TEST(BinaryProperties, GetHeatTogether) {
 }
 
 TEST(ProgrammedBurn, RunsThroughAGasAtItsSpeed) {
-  // From x = 0 on, at 2 m/s, until t = .2: what is below .4 has burned except for 1.5 cells. Both gases have one law
-  // and one pressure, so that nothing moves but by the little heat, whose sum tells what has burned.
+  // The detonation starts at x = 0 and travels at 2 m/s until t = .2, so the gas below x = .4 has burned, except for
+  // 1.5 cells. Both gases have one law and one pressure, so that hardly anything moves; the sum of the heat, which is
+  // small, tells how much has burned.
   std::string scene = changedScene(gases, "  <DataAnalysis>",
                                    "  <Models><Model type=\"LightTime\"><LightTime><fromMaterial>air</fromMaterial>"
                                    "<toMaterial>helium</toMaterial><D>2</D><E0>1e-3</E0><starting_location>[0,0,0]"

@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes.hpp"
 
-// Conditions, forces and viscosities in words of Uintah's ICE.
+// Conditions, forces and viscosities given by tags of Uintah's ICE.
 
 namespace tushar::ice {
 
@@ -65,7 +65,7 @@ TEST(IceConditions, OnlyComponentsOfVelocitiesThatAreThereSwing) {
 }
 
 TEST(IceConditions, WavesLeaveByAllSides) {
-  // Of a height of 1e-3 Pa.
+  // Relative to a height of 1e-3 Pa.
   EXPECT_LT(errorOf(pulse), 2e-5);
   EXPECT_EQ(fingerprintOf(pulse, {"Grid/Level/Box/patches=[4,2,1]"}), fingerprintOf(pulse));
   EXPECT_EQ(problemOf(withSide(condition("Pressure", "LODI"))), "needs a <LODI> in <BoundaryConditions>");

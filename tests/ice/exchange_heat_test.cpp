@@ -104,7 +104,7 @@ TEST(ChangesByHeat, LetGasesExpandAtOnePressure) {
     const double ofAir =
         CellOfGases::pressureOf(cell.air, cell.massOfAir, air, things.temperature[2] + changes.temperature[2]);
     EXPECT_NEAR(ofWater, ofAir, 1e-13 * (ofAir + cell.water.pInfinity));
-    // That is the pressure which their energy has once the body has taken its heat. The stiffest exchange is 1e8 times
+    // The pressure that follows from their energy once the body has taken its heat. The stiffest exchange is 1e8 times
     // the capacities, so that this much of round-off shows.
     const double heat = things.capacity[0] * changes.temperature[0];
     const double energy = cell.energyOf(0.5, 0.25, cell.pressure) - heat;

@@ -3,7 +3,7 @@
 #include "components/ice/gas_input.hpp"
 #include "core/input/document.hpp"
 
-// What other components read of a gas.
+// The input of a gas, as read by other components.
 
 namespace tushar::ice {
 

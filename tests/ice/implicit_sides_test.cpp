@@ -6,7 +6,7 @@
 #include "components/ice/tasks/limit_implicit_step.hpp"
 #include "tests/euler/gas_box.hpp"
 
-// What sides of the grid give an implicit step, by the bodies of the tasks alone.
+// The effect of sides of the grid on an implicit step, computed by calls of task bodies.
 
 namespace tushar::ice {
 

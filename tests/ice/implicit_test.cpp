@@ -58,7 +58,7 @@ TEST(ImplicitIce, KeepsThePressureOfABoxAtRestInStepsWithoutLimit) {
 }
 
 TEST(ImplicitIce, LetsGasOutThroughSidesWithoutPressure) {
-  // rho c u = 1.18 Pa is what the gas was pushed with, and all that flows in flows out.
+  // The gas was pushed with rho c u = 1.18 Pa, and all gas that flows in flows out.
   for (const char* reversed : {"", "-"}) {
     const bool isReversed = *reversed != 0;
     const std::string in = isReversed ? std::string(inflow).replace(inflow.find("[0.1"), 4, "[-0.1") : inflow;
@@ -103,7 +103,7 @@ TEST(ImplicitIce, HasOneErrorAtAnyLowMachNumber) {
 }
 
 TEST(ImplicitIce, CarriesAContactAtOnePressure) {
-  // p = 100 Pa; the error of the pressure that the scene's formula of the temperature stands for.
+  // p = 100 Pa; the error of the pressure that corresponds to the formula of the temperature in the scene.
   std::string scene =
       changedScene("ups/ice/heat_wave.ups", "<ICE><advection",
                    "<ICE><ImplicitSolver/><TimeStepControl>" + control + "</TimeStepControl><advection");

@@ -45,7 +45,7 @@ TEST(IceMixture, HasTheLawOfAGasThatIsAlone) {
 }
 
 TEST(IceMixture, KeepsContactsOfWaterAndAirQuiet) {
-  // The energy of water has 6e8 Pa in it, so that round-off of the pressure is 1e-7 Pa.
+  // The energy of water contains 6e8 Pa, so the pressure has a rounding error of 1e-7 Pa.
   const Overrides shortened{"Time/maxTime=0.001"};
   EXPECT_LT(greatestError(drift, "<label>c.pressure</label>", "1e5", shortened), 1e-5);
   EXPECT_LT(greatestError(drift, "<label>c.velocity</label><component>x</component>", "100", shortened), 1e-10);
@@ -224,7 +224,7 @@ TEST(IceMixtureLevels, HaveOneFingerprintOnAnyPatches) {
 }
 
 TEST(IceMixture, BecomesAnotherGas) {
-  // With a rate beyond what a step takes all of it goes in the first one.
+  // With a rate higher than a step allows, everything is converted in the first step.
   const report::Report report = test::runScene(withTransfer("1e9"), {});
   EXPECT_NEAR(driftOf(report, "mass"), 0, 1e-14);
   EXPECT_NEAR(driftOf(report, "energy"), 0, 1e-14);

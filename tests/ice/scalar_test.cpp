@@ -4,7 +4,7 @@
 #include "tests/euler/gas_box.hpp"
 #include "tests/support/scenes.hpp"
 
-// What a gas carries along.
+// Scalars that a gas carries along.
 
 namespace tushar::ice {
 
@@ -86,7 +86,7 @@ class ScalarBox : public euler::GasBox<D> {
 }  // namespace
 
 TEST(PassiveScalar, StaysInItsRangeAndIsKeptInAWildFlow) {
-  // Shocks and rarefactions of any strength, steps as long as the gas allows.
+  // Shocks and rarefactions of any strength, with the longest steps that the gas allows.
   ScalarBox<2> box(euler::closedBox(2, 30), euler::roughGas<2>,
                    [](const Vec<2>& x) { return std::sin(91 * x[0] + 57 * x[1] * x[1]) > 0 ? 1.0 : 0.0; });
   const double total = box.total();
@@ -112,7 +112,7 @@ TEST(PassiveScalar, GoesWithTheGas) {
 }
 
 TEST(PassiveScalar, SpreadsByItsDiffusivity) {
-  // sin sin falls by exp(-8 pi² D t) while it moves on.
+  // The product of sines decays by exp(-8 pi² D t) while it moves.
   const std::string scene =
       changedScene(changedScene(scalars, "sin(2*pi*(y-t))</value>", "sin(2*pi*(y-t))*exp(-0.008*pi^2*t)</value>"),
                    "<scalar name=\"wave\">\n          <constants><diffusivity>0<",
@@ -129,7 +129,7 @@ TEST(PassiveScalar, GoesWithTheGasInImplicitSteps) {
 }
 
 TEST(PassiveScalar, HasTheSameErrorsToTheBitOnAnyPatches) {
-  // The flow does not depend on scalars, so that they do not count in its fingerprint.
+  // The flow does not depend on scalars, so they are not part of its fingerprint.
   Overrides shortened = coarse;
   shortened.push_back("Time/maxTime=0.1");
   const auto whole = test::runScene(scalars, shortened).errors.at(0).norms;

@@ -15,7 +15,7 @@ const std::string sod = "ups/ice/sod.ups", shear = "ups/ice/shear_wave.ups", cha
 
 using test::driftOf;
 
-/// What is wrong with the scene, without its place; what is noted, if nothing is.
+/// The problem of the scene, without its place; if there is none, its note.
 std::string problemOf(const std::string& scene, const Overrides& overrides = {}) {
   try {
     const simulation::Problem problem = scene::readScene(scene, overrides, catalogue());
@@ -42,7 +42,7 @@ std::string withSide(const std::string& conditions) {
 }  // namespace
 
 TEST(IceScene, HasTheBitsOfEuler) {
-  // gamma = 1.5 and c_v = 2 make R = 1 without round-off.
+  // With gamma = 1.5 and c_v = 2, R is exactly 1.
   const std::string gamma = "DataAnalysis/Module/gamma=1.5";
   EXPECT_EQ(test::runScene(sod, {"MaterialProperties/ICE/material/gamma=1.5",
                                  "MaterialProperties/ICE/material/specific_heat=2", gamma})
@@ -53,7 +53,7 @@ TEST(IceScene, HasTheBitsOfEuler) {
 TEST(IceScene, KeepsTheEnergyOfSodsTube) { EXPECT_NEAR(driftOf(test::runScene(sod, {}), "energy"), 0, 1e-14); }
 
 TEST(IceScene, DampsAShearWave) {
-  // .0067 m/s are left; second order of h, with steps of h².
+  // .0067 m/s remain; second order in h, with steps proportional to h².
   const double coarse = errorOf(shear, {"Grid/Level/Box/resolution=[32,8,1]"});
   const double fine = errorOf(shear, {});
   EXPECT_LT(fine, 1.6e-6);
@@ -70,7 +70,7 @@ TEST(IceScene, KeepsMomentumAndEnergyOfAPeriodicBox) {
 }
 
 TEST(IceScene, DampsAWaveOfTemperature) {
-  // .0454 K are left of it.
+  // .0454 K of it remain.
   EXPECT_LT(errorOf(heat, {}), 2.3e-4);
 }
 
@@ -181,7 +181,7 @@ TEST(IceScene, OfOtherEquationsOfStateHasOneFingerprintOnAnyPatches) {
 }
 
 TEST(IceScene, OfAStiffenedGasIsThatOfAnIdealOneOfHigherPressure) {
-  // T is the same where p + p_infinity is; the pressures at the sides do not count.
+  // T is the same if p + p_infinity is; the pressures at the sides have no effect.
   const std::string stiff =
       changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"stiffened_gas\"><p_infinity>0.05</p_infinity></EOS>");
   const report::Report report =

@@ -79,7 +79,7 @@ grid::Domain betweenOneAndTwo() {
   keep(domain, 1, 2);
   return domain;
 }
-/// 1e4 times what the explicit scheme can take, with k = 1e6.
+/// 1e4 times the stable step of the explicit scheme with k = 1e6.
 double longStep() { return 1e4 * 0.5 / (32 * 32) / 1e6; }
 
 }  // namespace
@@ -104,11 +104,12 @@ TEST(ImplicitHeat, StaysWithinTheRangeOfTheStartAndTheFacesWithLongSteps) {
 TEST(ImplicitHeat, ReachesTheSteadyStateOfTwoConductivities) {
   const std::vector<double> temperature =
       after(betweenOneAndTwo(), implicitSettings(1, spike, jump), 1e4 * longStep(), 40);
-  // The flux is the same everywhere: nearly all of the difference is in the half that conducts badly.
+  // The flux is the same everywhere: nearly all of the temperature difference is in the half that conducts badly.
   const double flux = 1 / (0.5 + 0.5e-6);
   for (int k = 0; k < 32; ++k) {
     const double x = (k + 0.5) / 32, exact = x < 0.5 ? 1 + flux * x : 2 - flux * 1e-6 * (1 - x);
-    // What is left of the start decays by 1 + rate dt > 1 + 4 * 49 in each step; the rest is rounding times 1e6.
+    // The influence of the initial state decays by a factor of 1 + rate dt > 1 + 4 * 49 in each step; the rest is
+    // rounding times 1e6.
     EXPECT_NEAR(temperature[std::size_t(k)], exact, 1e-8) << k;
   }
 }

@@ -3,13 +3,13 @@
 #include "components/components.hpp"
 #include "core/scene/scene.hpp"
 
-// Which component reads the section <Heat>.
+// Selection of the component that reads the section <Heat>.
 
 namespace tushar::implicit_heat {
 
 namespace {
 
-/// What is wrong with the scene of a sine of temperature, with some of its values overridden; empty if nothing is.
+/// The problem of the scene of a temperature sine, with some of its values overridden; empty if there is none.
 std::string problemWith(const std::vector<std::string>& overrides) {
   try {
     scene::readScene("ups/heat/sine.ups", overrides, catalogue());
@@ -19,7 +19,7 @@ std::string problemWith(const std::vector<std::string>& overrides) {
   return "";
 }
 
-/// Where the first problem of the scene with an override is.
+/// The place of the first problem of the scene with an override.
 std::string blamed(const std::string& change) {
   try {
     scene::readScene("ups/heat/sine.ups", {change}, catalogue());

@@ -229,8 +229,8 @@ class BrokenScenes(unittest.TestCase):
 
     def test_boxes_that_cannot_stand_anywhere(self):
         result = run("ups/mpm/sod_conserving.ups", LEFT + "placement=random", outputs=True)
-        self.assert_refused(result, "geom_object: placement: the boxes of <conserving_gas_dynamics> fill the gas; use "
-                                    "midpoint")
+        self.assert_refused(result, "geom_object: placement: the boxes of <conserving_gas_dynamics> must fill the gas "
+                                    "without gaps; use midpoint")
 
     def test_stiffened_gases_that_nothing_holds(self):
         stiff = MATERIAL + "constitutive_model/@type=stiffened_gas", MATERIAL + "constitutive_model/p_infinity=6e8"

@@ -182,7 +182,7 @@ TEST(Geometry, FindsAShapeAgainByItsLabel) {
 }
 
 TEST(Geometry, FindsAShapeOfAnotherSectionWhereItsOwnHasNone) {
-  // Two sections: M has b once, N refers to it; its own c counts before that of M.
+  // Two sections: M defines b and c; N refers to b, and its own c takes precedence over that of M.
   const Document document = documentOf(
       "<M><a>" + box("[0,0,0]", "[1,1,1]", "b") + "</a><a>" + box("[0,0,0]", "[1,1,1]", "c") + "</a></M><N><a>" +
       box("[0,0,0]", "[2,2,2]", "c") + "</a><d><box label='b'/></d><e><box label='c'/></e></N>");

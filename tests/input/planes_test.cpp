@@ -3,7 +3,7 @@
 #include "core/input/geometry.hpp"
 #include "tests/input/support.hpp"
 
-// Shapes that lines and planes bound.
+// Shapes that are bounded by lines and planes.
 
 namespace tushar::input {
 namespace {

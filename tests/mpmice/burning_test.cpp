@@ -11,7 +11,7 @@ template <class T>
 class BurningAlongAxes : public testing::Test {};
 TYPED_TEST_SUITE(BurningAlongAxes, AllAxes);
 
-/// Gas beside a body that fills a half space with boxes, four per cell along each axis.
+/// Gas next to a body that fills a half space with boxes, four per cell along each axis.
 template <int D, int Size = 8>
 struct HalfSpace {
   static constexpr int size = Size, perCell = 4;
@@ -84,7 +84,7 @@ TEST(SurfaceAtFaces, HaveTheAreaOfAnObliquePlane) {
       Box rows = half.level.cells();  // away from the sides, where the normal is not that of the plane
       rows.lower[1] = 6;
       rows.upper[1] = 18;
-      // Boxes are steps: the normal that they show is not quite that of the plane, except at 45 degrees.
+      // Boxes form steps, so their normal differs slightly from that of the plane, except at 45 degrees.
       EXPECT_NEAR(half.areaIn(rows) / (12 * std::sqrt(1 + slope * slope)), 1, slope < 1 ? 0.03 : 1e-14)
           << slope << ' ' << shift;
     }

@@ -90,7 +90,7 @@ TYPED_TEST(FreeSpaceAlongAxes, HasANormalIntoABodyAcrossAnyPlane) {
   Vec<D> into;
   for (int d = 0; d < D; ++d) into[d] = 1 - 1.3 * d;
   into.normalize();
-  // Filled ever more along `into`: the gradient of a straight line is exact, away from the sides.
+  // The filling increases along `into`: the gradient of a linear function is exact, away from the sides.
   forEach<D>(cube.level.cells(), [&](const Index<D>& cell) {
     double along = 0;
     for (int d = 0; d < D; ++d) along += into[d] * (cell[d] - 2);

@@ -132,7 +132,7 @@ TEST(WallForce, IsPressureAndRecoilWhereNewGasLeavesAtTheSpeedOfTheOld) {
   for (auto& record : walled.records)
     for (NodeRecord& one : record.values) mpm::solid::setLanes<D>(one, lane::velocity, Vec<D>::Zero());
   Field<Vec<D>> speed(walled.level().cells(), Vec<D>::Zero()), recoil(speed);
-  // The gas below the body flows away from it along the first axis with .3, as what leaves the body does.
+  // The gas below the body flows away from it along the first axis with .3, as does the gas that leaves the body.
   forEach<D>(walled.level().cells(), [&](const Index<D>& cell) {
     if (cell[0] == 1) {
       walled.gas.momentum.cells()[cell][0] = -0.3;

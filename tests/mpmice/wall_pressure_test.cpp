@@ -27,7 +27,7 @@ TEST(WallPressure, IsThatBehindTheShockThatThrowsTheGasBack) {
 }
 
 TEST(WallPressure, IsThatOfAnIsentropicFanBehindAWallThatDrawsBack) {
-  // u + 2 c / (gamma - 1) stays: at half the speed of sound the wall draws back by 2.5.
+  // u + 2 c / (gamma - 1) stays constant, so the wall retreats at 2.5 where the speed of sound is halved.
   EXPECT_NEAR(on(-2.5), 1.0 / 128, 1e-16);
   EXPECT_NEAR(on(-1), std::pow(0.8, 7), 1e-15);
 }
@@ -62,7 +62,7 @@ TEST(WallPressure, OfAStiffenedGasIsThatOfAnIdealOneWithTheStiffnessAdded) {
 }
 
 TEST(WallPressure, OfAGasWithALawOfItsOwnIsThatOfTheGasItIs) {
-  // Without its exponentials JWL is an ideal gas.
+  // Without its exponentials, the JWL law is that of an ideal gas.
   euler::Gas byLaw = air;
   byLaw.law = std::make_shared<const euler::Gas::Law>(euler::CurvedGas({.density = 1}, 0.4, 716));
   for (const double closing : {-4.0, -1.0, -1e-3, 0.0, 1e-3, 0.3, 20.0})

@@ -17,7 +17,7 @@ constexpr grid::BoundaryLabel<double> phiLabel{"Phi"};
 input::Expression formula(const char* text) { return *input::Expression::parse(text); }
 
 /// A unit box of 16 cells along each axis, three levels in blocks of 4: fine regions with edges and corners within the
-/// grid, one that touches its sides, and one cell of coarse blocks between two.
+/// grid, one that touches its sides, and two regions separated by a single coarse block.
 template <int D>
 grid::Domain refined() {
   grid::Domain domain = test::unitBox<D>(16);
@@ -125,7 +125,7 @@ double leftOver(const char* k, double left, double right) {
 
 }  // namespace
 
-// What is left is rounding: values of some 5 units, over squares of widths of 1/64.
+// Only rounding remains: that of values of about 5, divided by squared widths of 1/64.
 TEST(CompositeDiffusion, IsExactForParabolasAtFacesEdgesAndCornersOfLevels) {
   EXPECT_LT(errorForAParabola<1>(), 1e-10);
   EXPECT_LT(errorForAParabola<2>(), 1e-10);

@@ -82,7 +82,7 @@ TEST(ArchiveResume, TakesThePointsIndexWhereThatOfTheFolderIsDamaged) {
   EXPECT_EQ(goneOn(here / "sod.uda.000", point), expected);
 }
 
-/// The folder has its old index, complete, as after a power failure.
+/// The folder has its old index, which is complete, as after a power failure.
 TEST(ArchiveResume, TakesThePointsIndexWhereThatOfTheFolderIsBehindIt) {
   const TemporaryFolder here;
   const auto expected = uncut(here / "other/sod.uda");

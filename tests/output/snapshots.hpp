@@ -81,8 +81,8 @@ inline Snapshot snapshot3d(int step, double time) {
   return snapshot;
 }
 
-/// The left half of 4 × 2 cells, their lower corner (-1, 3), as it is; of the right half, refined once, a quarter
-/// refined twice: 32 cells in 4 boxes. And particles of one material.
+/// 4 × 2 cells with the lower corner (-1, 3): the right half is refined once, and a quarter of it twice, so that there
+/// are 32 cells in 4 boxes. And particles of one material.
 inline Snapshot snapshotRefined(int step, double time) {
   Snapshot snapshot = emptySnapshot(step, time);
   snapshot.grid = {{-1, 3, 0}, {0.1, 0.2, 2}, {{4, 2, 1}}, 2};

@@ -4,7 +4,7 @@
 
 #include "tests/poisson/solved.hpp"
 
-// Poisson's equation on grids of several levels that stay.
+// Poisson's equation on fixed grids of several levels.
 
 namespace tushar::poisson {
 

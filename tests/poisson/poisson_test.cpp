@@ -64,7 +64,7 @@ TEST(Poisson, IsOfSecondOrderInAPeriodicBoxWhereAConstantIsFree) {
 }
 
 TEST(Poisson, TakesASourceThatTheSlopesAtTheFacesBalance) {
-  // phi = 1.5 x² - x less its mean; a parabola is off by the same everywhere, which its mean of 0 takes away.
+  // phi = 1.5 x² - x less its mean; the error of a parabola is the same everywhere, so a mean of 0 removes it.
   EXPECT_LT(solved<1>(betweenSlopes(8, 1, 2), settingsOf("3"), "1.5*x*x - x + 1.5/(12*64)").error, 1e-9);
 }
 
@@ -78,7 +78,8 @@ TEST(Poisson, RefusesASourceThatNothingBalances) {
 }
 
 TEST(Poisson, TakesTheSourceOfTheEndOfTheStep) {
-  // The step goes from t = 0.5 to 1; a parabola is off by h²/4 everywhere, from the half cells at its kept sides.
+  // The step goes from t = 0.5 to 1; the error of a parabola is h²/4 everywhere, because of the half cells at the sides
+  // with given values.
   const Settings settings = settingsOf("2*t");
   EXPECT_NEAR(solved<1>(keptAtOne<1>(8), settings, "1 + x*(x - 1)").error, 1.0 / (4 * 64), 1e-9);
 }

@@ -66,7 +66,7 @@ class Outputs(WithArchives):
         density = r"no particle variable 'p.densty' \(did you mean 'p.density'"
         for wrong, sentence in ((lambda: archive[-1]["p.densty"], density),
                                 (lambda: archive.globals["KinetcEnergy"], r"did you mean 'KineticEnergy'"),
-                                (lambda: archive["p.x"], r"outputs go by number: archive\[-1\]\['p.x'\]"),
+                                (lambda: archive["p.x"], r"outputs are selected by number: archive\[-1\]\['p.x'\]"),
                                 (lambda: archive[7], "no output 7: .* has 3, 0 to 2"),
                                 (lambda: archive.report, "there is no report .* sus --json report.json"),
                                 (lambda: archive.particles(), 'add <save label="p.particleID"/>'),

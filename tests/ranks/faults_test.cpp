@@ -3,7 +3,7 @@
 #include "core/base/error.hpp"
 #include "tests/ranks/ranks.hpp"
 
-// A fault on one of several ranks is the same on all.
+// All ranks report a fault of any rank in the same way.
 
 namespace tushar::tasks {
 

@@ -2,7 +2,7 @@
 
 #include "tests/ranks/ranks.hpp"
 
-// Tests of several ranks: started by mpirun, every rank runs every test. The first rank speaks.
+// Tests of several ranks: started by mpirun, every rank runs every test. The first rank prints.
 
 namespace tushar::test {
 

@@ -2,7 +2,7 @@
 
 #include "tests/ranks/ranks.hpp"
 
-// Node variables that count near particles only.
+// Node variables with values near particles only.
 
 namespace tushar::tasks {
 
@@ -38,8 +38,8 @@ struct Exchanged {
   double wrong, given;
 };
 
-/// Each patch numbers its own nodes, and reads one layer beyond. Where `looks`, the numbering reads ghosts of
-/// particles; else nobody knows which nodes are near.
+/// Each patch numbers its own nodes, and reads one layer beyond. If `looks`, the numbering reads ghosts of particles;
+/// otherwise it is unknown which nodes are near particles.
 Exchanged exchange(const mpi::Communicator& ranks, const Index3& patches, bool periodic, bool looks, int threads = 1) {
   constexpr data::ReductionLabel<Sum> given{"given", "1", "nodes that came from other patches"};
   test::Runner run(plane(patches, periodic), threads, ranks);

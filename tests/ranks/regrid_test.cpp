@@ -76,9 +76,9 @@ int particlesAfter(const mpi::Communicator& ranks, const PatchCosts& costs) {
 
 TEST(Regridding, GivesRanksSharesThatCostTheSame) {
   onRanks(2, [](const mpi::Communicator& ranks) {
-    // 4 of the 12 patches have 64 particles; the best that whole patches allow is two of them each.
+    // 4 of the 12 patches have 64 particles; with whole patches, the best division gives two of them to each rank.
     EXPECT_EQ(particlesAfter(ranks, {1, 1}), 2 * 64);
-    // By cells, the first half of them is all that has particles.
+    // If cells are counted, the first half of them has all particles.
     EXPECT_EQ(particlesAfter(ranks, {1, 0}), ranks.isFirst() ? 4 * 64 : 0);
   });
 }

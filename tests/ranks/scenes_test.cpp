@@ -9,7 +9,7 @@
 #include "core/simulation/simulation.hpp"
 #include "tests/ranks/ranks.hpp"
 
-// The same bits on any ranks, threads and patches.
+// Results are bitwise equal on any ranks, threads and patches.
 
 namespace tushar::simulation {
 
@@ -20,8 +20,8 @@ namespace {
 using test::onRanks;
 namespace fs = std::filesystem;
 
-/// Number of steps and fingerprint of a scene in patches along x, y, z (of several levels: blocks of a patch) on some
-/// ranks with so many threads each, told to all of them.
+/// Number of steps and fingerprint of a scene, the same on all ranks. `layout` has the patches along x, y, z (on
+/// several levels, the blocks of a patch).
 std::string resultOf(const std::string& scene, std::vector<std::string> sets, const Index3& layout,
                      const mpi::Communicator& ranks, int threads) {
   sets.push_back("DataArchiver/outputInterval=0");

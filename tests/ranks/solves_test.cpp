@@ -9,8 +9,8 @@
 #include "core/simulation/simulation.hpp"
 #include "tests/ranks/ranks.hpp"
 
-// Scenes with a solve over the whole grid, on several ranks: the same answer, though not the same bits, since every
-// number of ranks makes another preconditioner and another order of sums.
+// Scenes with a solve over the whole grid, on several ranks: the same answer, though not bitwise, since the
+// preconditioner and the order of sums depend on the number of ranks.
 
 namespace tushar::simulation {
 

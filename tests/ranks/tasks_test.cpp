@@ -57,8 +57,8 @@ double differingGhosts(const mpi::Communicator& ranks, const Index3& patches, in
   return valueOf(run, "wrong");
 }
 
-/// Two particles in each cell, which jump by some cells in each step, on a periodic grid; or on one with ends, where
-/// they stay.
+/// Two particles in each cell. On a periodic grid, they jump by some cells in each step; on a grid with ends, they
+/// rest.
 class Swarm {
  public:
   /// If `fails`, the rank fails once, at the start of a step.
@@ -90,9 +90,9 @@ class Swarm {
                        true);
     run.step(begin);
   }
-  /// From now on patches move between ranks before each step: all to one rank, or each to some other.
+  /// From now on, patches move between ranks before each step: all to one rank, or each to another rank.
   void keepMoving() { moves = true; }
-  /// Whether a step that may be repeated has to be.
+  /// Whether a repeatable step must be repeated.
   bool isRepeated() {
     StepInfo at;
     at.mayRepeat = true;
@@ -311,7 +311,8 @@ TEST(Ranks, HearOfAFaultThatCameAfterGhostsWereSent) {
 TEST(Ranks, RepeatAStepThatStoppedBeforeAllHadSettledTheirGhosts) {
   for (const int faulty : {0, 1, 2})
     onRanks(3, [faulty](const mpi::Communicator& some) {
-      // With ends, the first patch of the first rank has its ghosts from that rank, and others of it have not.
+      // On a grid with ends, the first patch of the first rank gets its ghosts from that rank, its other patches do
+      // not.
       Swarm swarm(some, {{12, 10, 1}}, 0, some.rank() == faulty);
       EXPECT_TRUE(swarm.isRepeated());
       EXPECT_EQ(swarm.after(2), std::pair(0.0, 240.0)) << "rank " << faulty;

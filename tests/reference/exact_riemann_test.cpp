@@ -142,7 +142,7 @@ TEST(ExactRiemann, AveragesSodAsBruteForceDoes) {
   const ExactRiemann sod(sodTube());
   for (const auto& [a, b] : {std::pair{0.0, 1.0}, {0.26, 0.27}, {0.30, 0.31}, {0.2, 0.5}, {0.68, 0.69}, {0.85, 0.86}}) {
     const GasState mean = sod.average(Vec3(a, 0, 0), Vec3(b, 0, 0), 0.2);
-    // Brute force is a midpoint rule: 1e-10 is its error, not that of the average.
+    // The reference is a midpoint rule: 1e-10 is its error, not that of the average.
     EXPECT_NEAR(mean.density, bruteMean(sod, a, b, 0.2, [](const GasState& g) { return g.density; }), 2e-10);
     EXPECT_NEAR(mean.velocity[0], bruteMean(sod, a, b, 0.2, [](const GasState& g) { return g.velocity[0]; }), 2e-10);
     EXPECT_NEAR(mean.pressure, bruteMean(sod, a, b, 0.2, [](const GasState& g) { return g.pressure; }), 2e-10);

@@ -44,14 +44,14 @@ TEST(GreshoVortex, SolvesTheGasEquationsInEachRingAndInAnyUnits) {
 
 TEST(GreshoVortex, AveragesAsBruteForceDoes) {
   const GreshoVortex vortex(inUnitBox());
-  // Boxes in the core, cut by the inner ring, by the outer one, touched at its side.
+  // Boxes in the core, cut by the inner ring, cut by the outer ring, and touched by it at a side.
   for (const auto& [lower, size] : {std::pair{Vec3(0.5, 0.5, 0), 0.05},
                                     {Vec3(0.61, 0.62, 0), 0.05},
                                     {Vec3(0.75, 0.78, 0), 0.05},
                                     {Vec3(0.875, 0.475, 0), 0.05}}) {
     const Vec3 upper = lower + Vec3(size, size, 0);
     const GasState mean = vortex.average(lower, upper, 0);
-    // 500² midpoints on fields with kinks are good to h² / 12 times their second derivatives of about 50.
+    // The error of 500² midpoints on fields with kinks is h² / 12 times their second derivatives, which are about 50.
     const double brute = size * size / 2.5e5 / 12 * 2 * 50 + 1e-11;
     EXPECT_LT(difference(mean, midpointMean(vortex, lower, upper, 0, 500)), 2 * brute) << lower;
   }

@@ -76,7 +76,7 @@ TEST(IsentropicVortex, AveragesToTwelveDigits) {
   const IsentropicVortex vortex(shu());
   for (const Vec3& lower : {Vec3(0, 0, 0), Vec3(-1, 0.5, 0), Vec3(-2, -2.3, 0)}) {
     const Vec3 upper = lower + Vec3(0.33, 0.33, 0);
-    // The adaptive rule of any reference, good to 1e-12, is the judge.
+    // Compared with the adaptive rule of all references, which is accurate to 1e-12.
     EXPECT_LT(difference(vortex.average(lower, upper, 0.1), vortex.GasReference::average(lower, upper, 0.1)), 2e-12);
   }
 }

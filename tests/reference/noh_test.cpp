@@ -78,7 +78,7 @@ TEST(Noh, KeepsTheMassThatFellIn) {
   for (int d = 1; d <= 3; ++d) {
     const NohProblem problem = inDimensions(d);
     const Noh noh(problem);
-    // What lies within r = .3 at t = .6 came from within .9; cells of .05 m, an eighth of the ball.
+    // The gas within r = .3 at t = .6 was within .9 at the start; cells of .05 m, an eighth of the ball.
     Fields sum = Fields::Zero();
     const int n = 12;
     for (int i = 0; i < n; ++i)
@@ -87,7 +87,7 @@ TEST(Noh, KeepsTheMassThatFellIn) {
           const Vec3 lower = 0.05 * Vec3(i, j, k);
           sum += toFields(noh.average(lower, lower + Vec3::Constant(0.05), 0.6)) * std::pow(0.05, d);
         }
-    // The rest of the box of .6 m, of density (1 + .6 / r)^(d-1), is the judge's own integral by midpoints.
+    // The rest of the box of .6 m, of density (1 + .6 / r)^(d-1), is compared with an integral by midpoints.
     double rest = 0;
     const int m = 120;
     for (int i = 0; i < m; ++i)

@@ -6,7 +6,7 @@
 
 #include "tests/support/scenes.hpp"
 
-// The references as modules of scenes: what they measure falls with the resolution, what they refuse they say.
+// The references as modules of scenes: measured errors decrease with the cell width, and refusals have messages.
 
 namespace tushar::reference {
 

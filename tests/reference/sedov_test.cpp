@@ -155,7 +155,7 @@ TEST(Sedov, AveragesAddUpToItsMassAndEnergy) {
           internal += mean.pressure / 0.4 * std::pow(2 * h, d);
           byMass += mean.density * mean.energy * std::pow(2 * h, d);
         }
-    // Pressure of the energy of 1; midpoints of the judge are good to 1e-6.
+    // Pressure of the energy of 1; the midpoint rule is accurate to 1e-6.
     EXPECT_NEAR(internal, integral(blast, d, 1, [](const RadialState& s) { return s.pressure / 0.4; }), 1e-6) << d;
     EXPECT_NEAR(mass, std::pow(2.4, d), 1e-6 * mass) << d;
     EXPECT_NEAR(byMass, internal, 1e-12);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The conserving gas method: errors for Sod's tube, conserved quantities, and same bits on any patches."""
+"""The conserving gas method: errors for Sod's tube, conserved quantities, and bitwise equal results on any patches."""
 import json
 import os
 import pathlib

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The energy budget of solids: gains and losses, the residual, and same bits on any layout."""
+"""The energy budget of solids: gains and losses, the residual, and bitwise equal results on any layout."""
 import pathlib
 import sys
 import unittest

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Burning bodies: rates against closed forms, conservation, same bits on any layout, wrong scenes."""
+"""Burning bodies: rates against closed forms, conservation, bitwise equal results on any layout, wrong scenes."""
 import math
 import pathlib
 import sys

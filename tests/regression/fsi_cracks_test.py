@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bodies that burn by DDT1, at their surfaces and in cracks: what is conserved, the same bits on any layout, wrong
+"""Bodies that burn by DDT1, at their surfaces and in cracks: conservation, bitwise equal results on any layout, wrong
 scenes."""
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Several gases around bodies: exactness, errors, the mass of each gas, same bits on any layout."""
+"""Several gases around bodies: exactness, errors, the mass of each gas, bitwise equal results on any layout."""
 import pathlib
 import re
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Implicit steps of a gas beside bodies: exactness, errors, conservation, same bits."""
+"""Implicit steps of a gas around bodies: exactness, errors, conservation, bitwise equal results on any layout."""
 import pathlib
 import sys
 import unittest

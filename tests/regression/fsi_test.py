@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Gas and bodies on one grid: exactness, errors, conservation, same bits on any layout, wrong scenes."""
+"""Gas and bodies on one grid: exactness, errors, conservation, bitwise equal results on any layout, wrong scenes."""
 import pathlib
 import re
 import sys
@@ -294,7 +294,7 @@ HOT = """<geom_object><cylinder label="hot"><bottom>[0.6,0.3,-1]</bottom><top>[0
 
 
 class FarBodies(SceneTest):
-    """A gas that a body has not yet influenced has the same bits as a gas alone."""
+    """A gas that a body has not yet influenced is bitwise equal to a gas alone."""
 
     def assert_bits_of_ice(self, text, *sets):
         text = re.sub(r'    <save label.*<save label.*?/>\n', STATE, text, flags=re.DOTALL)

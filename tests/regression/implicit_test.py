@@ -179,7 +179,7 @@ class Implicit(SceneTest):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)
         self.assertRegex(result.err, r"Newton's method did not converge: more iterations than allowed "
-                                     r"\(DIVERGED_MAX_IT\) in 1 iteration; residuals \S+, \S+; the greatest residual "
+                                     r"\(DIVERGED_MAX_IT\) in 1 iteration; residuals \S+, \S+; the largest residual "
                                      r"is at the node at \(")
         self.assertIn("try a smaller <delt_init>", result.err)
 

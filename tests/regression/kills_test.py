@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A run that is killed at any instant, also while it writes, on one rank or on several, goes on from its last
-checkpoint to the same bits.
+"""A run that is killed at any instant, also while it writes, on one rank or on several, continues from its last
+checkpoint to bitwise equal results.
 
 A few kills; KILLS=50 tests/regression/kills_test.py makes more.
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The same bits on any patches and threads: every scene, every variant, in one, two and three dimensions. Of a grid of
-several levels a layout is what a patch has of blocks at the most."""
+"""Results are bitwise equal on any patches and threads: every scene, every variant, in one, two and three dimensions.
+For a grid of several levels, a layout is the largest number of blocks in a patch along each axis."""
 import pathlib
 import re
 import sys

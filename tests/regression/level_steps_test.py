@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Smaller steps on finer levels (<useLockStep> false): the same bits on any patches, threads and ranks, through
-restarts and repeated steps; nothing is lost; the errors are those of one step for all, for fewer updates."""
+"""Smaller steps on finer levels (<useLockStep> false): bitwise equal results on any patches, threads and ranks, after
+restarts and repeated steps; nothing is lost; errors are as with one step for all levels, with fewer updates."""
 import pathlib
 import re
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Grids of several levels: same bits on any patches, threads and ranks, after restarts, for mirror images, and for
-grids that are specified in another way; conservation between levels; errors of the finest cells."""
+"""Grids of several levels: bitwise equal results on any patches, threads and ranks, after restarts, for mirror images,
+and for grids that are specified in another way; conservation between levels; errors of the finest cells."""
 import pathlib
 import re
 import sys

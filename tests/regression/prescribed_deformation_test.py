@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bodies with a prescribed deformation: stress, same bits on any patches, and files with errors."""
+"""Bodies with a prescribed deformation: stress, bitwise equal results on any patches, and files with errors."""
 import math
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs under mpirun: same bits, same files, restarts on other ranks, and the effects of a fault on one rank."""
+"""Runs under mpirun: bitwise equal results, equal files, restarts on other ranks, and faults on one rank."""
 import os
 import pathlib
 import re

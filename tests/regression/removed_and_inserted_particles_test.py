@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Inverted particles are removed, and others are inserted later: counts, and same bits on any grid."""
+"""Inverted particles are removed, and others are inserted later: counts, and bitwise equal results on any grid."""
 import pathlib
 import re
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An interrupted and restarted run equals an uninterrupted one: same bits and archive, on any patches."""
+"""A run that is interrupted and restarted gives the results and archive of an uninterrupted one, on any patches."""
 import pathlib
 import re
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Conditions on parts of sides, and formulas in them: the same bits as on whole sides where both say the same, on any
-layout, ranks, levels and after a restart; what comes in is what formulas say."""
+"""Conditions on parts of sides, and formulas in them: results are bitwise equal to those of equivalent conditions on
+whole sides, on any layout, ranks and levels and after a restart; inflows are those of the formulas."""
 import pathlib
 import re
 import sys

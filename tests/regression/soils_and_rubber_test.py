@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Arenisca, Arenisca3, ArrudaBoyce8 and visco_scram that heat expands give the same bits on patches, threads and ranks,
-and after a restart."""
+"""Arenisca, Arenisca3, ArrudaBoyce8, and visco_scram that heat expands: bitwise equal results on any patches, threads
+and ranks, and after a restart."""
 import pathlib
 import sys
 import tempfile
@@ -64,7 +64,7 @@ def scene_of(model, folder):
 
 class SoilsAndRubber(unittest.TestCase):
     def on_all_layouts(self, model, *changes):
-        """Asserts that all runs of a changed scene give the same bits; returns its fingerprint."""
+        """Asserts that all runs of a changed scene are bitwise equal; returns their fingerprint."""
         with tempfile.TemporaryDirectory() as folder:
             scene = scene_of(model, folder)
             expected = run(scene, *changes)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Solids compared with results of Uintah of July 2026 for the same bodies; same bits on any patches."""
+"""Solids compared with results of Uintah of July 2026 for the same bodies; bitwise equal results on any patches."""
 import pathlib
 import sys
 import unittest

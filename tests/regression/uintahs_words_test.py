@@ -100,7 +100,7 @@ class UintahsWords(unittest.TestCase):
             for material in ("die", "billet"):
                 self.assertGreater(len(columns(archive, "p.x", material=material)["x [m]"]), 0)
         result = run(BILLET, *FEW, "DataArchiver/save[1]/@material=2-4", options=())
-        self.assertIn("in Uintah material 2 means all materials together; here 'p.x' is saved for each", result.err)
+        self.assertIn("in Uintah, material 2 means all materials together; here, 'p.x' is saved for each", result.err)
         self.assertIn("does nothing for 4: materials are numbered from 0 to 1", result.err)
 
     def test_what_is_saved_twice_is_saved_once(self):
@@ -154,7 +154,7 @@ class UintahsWords(unittest.TestCase):
         kept = "<interpolateParticleTempToGridEveryStep>false</interpolateParticleTempToGridEveryStep>"
         self.assertNotIn("first step", checked(kept).err)
         conducting = checked(kept + "<DoImplicitHeatConduction>true</DoImplicitHeatConduction>").err
-        self.assertIn("not from those in the first step, as in Uintah", conducting)
+        self.assertIn("in Uintah, from those in the first step", conducting)
         self.assertEqual(checked("<DoMechanics>true</DoMechanics>").code, 0)
         refused = checked("<DoMechanics>false</DoMechanics>")
         self.assertEqual(refused.code, 3)

@@ -12,7 +12,7 @@
 #include "core/simulation/simulation.hpp"
 #include "tests/support/temporary.hpp"
 
-// A value that goes wrong in a run of Sod's tube is found where and when it does, whatever the patches.
+// A wrong value in a run of Sod's tube is found at its place and time, on any patches.
 
 namespace tushar::simulation {
 

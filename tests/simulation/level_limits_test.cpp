@@ -142,8 +142,8 @@ TEST(LevelLimits, OneSentenceSaysWhichTaskRulesSmallerStepsOutAndHowManyOthers) 
     EXPECT_NE(text.find("task first reads the new c.value"), std::string::npos) << text;
     EXPECT_EQ(others.substr(0, others.find(':')), name == std::string("first") ? ""
                                                   : name == std::string("second")
-                                                      ? ", and 1 other task rules smaller steps out, too"
-                                                      : ", and 2 other tasks rule smaller steps out, too");
+                                                      ? ", and 1 other task also rules out smaller steps"
+                                                      : ", and 2 other tasks also rule out smaller steps");
   }
 }
 

@@ -10,7 +10,7 @@
 #include "core/simulation/simulation.hpp"
 #include "tests/support/temporary.hpp"
 
-// What a scene does not ask for is not done.
+// Work that a scene does not request is not done.
 
 namespace tushar::simulation {
 

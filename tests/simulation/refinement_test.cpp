@@ -136,7 +136,7 @@ TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnceHoweverFarSignalsReach) {
   grid::Grid grid(domain);
   grid.refine(grid.cut(grid.tree().regridded({{0, {{1, 0, 0}}}, {1, {{3, 0, 0}}}}, {})));
   EXPECT_EQ(levelsOfLeaves(grid.tree()), (std::vector<int>{0, 1, 2, 2, 1, 1, 0}));
-  // 17 cells before the first of level 2 is a cell of level 0, beyond the block of level 1 between them.
+  // The cell 17 cells before the first one of level 2 belongs to level 0, on the other side of a block of level 1.
   EXPECT_EQ(refinedOnce(grid, 32, 2, 48), (std::vector<int>{1, 1, 2, 2, 3, 3, 3, 3, 2, 2, 1, 0}));
 }
 

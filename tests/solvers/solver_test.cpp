@@ -78,8 +78,8 @@ class Plateau : public NonlinearProblem {
   double u_ = 0;
 };
 
-/// A chain of 26 springs of 1, a force of 1 on the last, and one more unknown that is hardly held: a particle that has
-/// just reached into the next cell touches its node with a slope of 4e-6.
+/// A chain of 26 springs of 1, a force of 1 on the last, and one more unknown with very little stiffness: a particle
+/// that has just reached into the next cell touches its node with a slope of 4e-6.
 class Chain : public NonlinearProblem {
  public:
   static constexpr int links = 26;

@@ -1,4 +1,4 @@
-"""Tests that a scene gives the same bits on any patches, threads and ranks, and after a restart."""
+"""Tests that the results of a scene are bitwise equal on any patches, threads and ranks, and after a restart."""
 import pathlib
 
 import gas_and_bodies as fsi

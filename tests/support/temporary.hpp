@@ -24,7 +24,7 @@ inline const std::string& temporaryFolder() {
   return folder.path;
 }
 
-/// Creates a new folder in it.
+/// Creates a new folder in the temporary folder.
 inline std::filesystem::path newFolder(const std::string& name) {
   const std::filesystem::path folder = temporaryFolder() + name;
   std::filesystem::create_directories(folder);

@@ -60,7 +60,7 @@ TaskList listOf(bool hasSecond) {
   return list;
 }
 
-/// A value in the first cell, of a material, after a step that a scene wants `wanted` of.
+/// The value of `label` of a material in the first cell, after a step of a scene that requests only this variable.
 double valueAfter(bool hasSecond, const CellLabel<double>& label, int material) {
   test::Runner run(test::domain({{cells, 1, 1}}, {{2, 1, 1}}));
   const TaskList list = listOf(hasSecond);

@@ -51,7 +51,7 @@ void fillOwnNodes(const Patch&, NodeView<double> field) {
   forEach<D>(field.box(), [&](const Index<D>& node) { field[node] = numberOf(wide(node)); });
 }
 
-/// Checks nodes that each patch writes as far as it owns them, and their number.
+/// Checks the nodes that each patch owns and writes, and their number.
 template <int D>
 std::pair<double, std::size_t> differingOwnNodes(const Index3& resolution, const Index3& patches, int nodesBeyond = 0) {
   grid::Domain domain = test::domain(resolution, patches);

@@ -31,7 +31,7 @@ data::Label labelOf(int components) {
   return label;
 }
 
-/// A box of coarse cells, and the cells of which values are known.
+/// A box of coarse cells, and the cells whose values are known.
 struct Coarse {
   Box stored;
   int dimension;

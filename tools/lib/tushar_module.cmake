@@ -3,10 +3,10 @@
 #
 # A module: a shared library that sus loads when a scene names one of its components or analyses. One of the sources
 # defines `tushar::simulation::Catalogue tushar::modules::NAME()`, which returns them; it is called once. NEEDS names
-# modules whose functions this one calls. With TOGETHER all but the sources ALONE are compiled as one, which is faster.
+# modules whose functions this one calls. With TOGETHER, all sources except ALONE are compiled as one, which is faster.
 # CALM names sources that read scenes and are never hot; in Tushar's own build they are compiled with fewer
 # optimisations.
-# The library is the target tushar_NAME, its sources alone tushar_NAME_objects, which tests link.
+# The library is the target tushar_NAME; its objects alone, with which tests link, are tushar_NAME_objects.
 set(TUSHAR_CARD ${CMAKE_CURRENT_LIST_DIR}/module_card.cpp.in)
 
 function(tushar_module name)

@@ -22,13 +22,13 @@ struct DiffusionRims {
 template <int D>
 void findTemperature(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& rows);
 
-/// Computes the diffusive fluxes through the lower faces of `faces` across an axis [Pa and W/m²], from T and v around
-/// them.
+/// Computes the diffusive fluxes along an axis through the lower faces of the cells of `faces` [Pa and W/m²], from T
+/// and v around them.
 template <int D>
 void computeDiffusiveFluxes(const Diffusion& diffusion, const Level& level, const Box& faces, int axis, Rows<D>& w,
                             Rows<D>& flux);
 
-/// Adds to the cells of a block the net inflow across an axis; `ratio` is dt / h [s/m].
+/// Adds to the cells of a block the net inflow along an axis; `ratio` is dt / h [s/m].
 template <int D>
 void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellView<Vec<D>> momentum,
                  CellView<double> energy);
@@ -36,8 +36,8 @@ void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellVi
 /// Adds the changes due to viscosity and heat conduction in a step, given the state [kg/m³, kg/(m² s), J/m³] and the
 /// time at the start of the step.
 ///
-/// The fluxes through a face across d are -tau_d for momentum and -(tau_d . v + k dT/dx_d) for energy, where tau = mu
-/// (grad v + (grad v)^T - 2/3 div v I). These are Newton's and Fourier's laws, by centred differences. They conserve
+/// The fluxes through a face normal to d are -tau_d for momentum and -(tau_d . v + k dT/dx_d) for energy, where tau =
+/// mu (grad v + (grad v)^T - 2/3 div v I). These are Newton's and Fourier's laws, by centred differences. They conserve
 /// mass, momentum and energy. The step is one of Euler's method, of first order in time. Along a symmetry plane there
 /// is no stress, and no heat passes through it. The gas sticks to a wall with a `Velocity`; a `Temperature` is that of
 /// the wall, and a wall without it is adiabatic. There is no diffusion through an open side.

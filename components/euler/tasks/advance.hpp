@@ -33,8 +33,8 @@ struct RimFluxes {
   }
 };
 
-/// The body of the task that performs one step on a patch. It takes the gas, the old state [kg/m³, kg/(m² s), J/m³] and
-/// its time, the time step [s], the new state, and the fluxes through the rim of the level.
+/// The body of the task that performs one step on a patch. Its parameters are the gas, the old state [kg/m³, kg/(m² s),
+/// J/m³] and its time, the time step [s], the new state, and the fluxes through the rim of the level.
 ///
 /// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, for all axes together (unsplit). First order: F follows from
 /// the cells on both sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis give values at the

@@ -48,13 +48,13 @@ template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state);
 
-/// The rules with the laws of these gases; `gases` may be empty, for one gas.
+/// The rules with the laws of these gases; for a single gas, `gases` is empty.
 template <int D>
 GhostRules<D> withLawsOf(GhostRules<D> rules, const std::vector<Settings>& gases) {
   if (gases.size() == 2) return withLaws<D>(std::move(rules), mixtureOf<2>(gases));
   return gases.size() == 3 ? withLaws<D>(std::move(rules), mixtureOf<3>(gases)) : rules;
 }
-/// Like ghostRules, for several gases, of which the first has the conditions; `gases` may be empty, for one gas.
+/// Like ghostRules, for several gases, of which the first has the conditions; for a single gas, `gases` is empty.
 template <int D>
 GhostRules<D> ghostRulesOf(const Level& level, const Gas& first, const std::vector<Settings>& gases, double time = 0) {
   return withLawsOf<D>(ghostRules<D>(level, first, time), gases);

@@ -20,9 +20,10 @@ struct Sloped {
 /// Work arrays for a block of cells and the cells around it.
 template <int D, int K = 1>
 struct Work {
-  /// Space for the blocks of a patch. The values of cells are 0 at first; all else is written before it is read.
+  /// Allocates space for the blocks of a patch. The values of cells are 0 at first; everything else is written before
+  /// it is read.
   Work(const Box& cells, int reach) : Work(Rows<D, K>(roomOf(cells, reach)), roomOf(cells, reach), reach > 1, {}) {}
-  /// Number of cells of the largest block of a patch, with those around it.
+  /// Number of cells of the largest block of a patch, including the cells around it.
   static std::size_t roomOf(const Box& cells, int reach) { return largestBlock<D>(cells).grown(reach, D).size(); }
   /// The same for steps that write the values of all cells of a block.
   static Work unfilled(const Box& cells, int reach) {
@@ -42,11 +43,11 @@ struct Work {
 
   Rows<D, K> w;                          ///< primitive values of cells
   std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, for each axis; empty if cells are constant
-  Rows<D, K> flux;                       ///< fluxes through lower faces, across one axis at a time
+  Rows<D, K> flux;                       ///< fluxes through lower faces, along one axis at a time
   std::vector<double> least;             ///< smallest density and p + p_inf at faces, for one row
 
  private:
-  /// How many planes it holds of faces, and of upper faces along the last axis; 0: all.
+  /// Number of planes that are stored of faces, and of upper faces along the last axis; 0: all.
   struct Planes {
     int faces = 0, above = 0;
   };
@@ -74,7 +75,7 @@ void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, 
   });
 }
 
-/// Adds the half-step change of a row across an axis, and sets its limited values at the faces.
+/// Adds the half-step change of a row due to one axis, and sets the row's limited values at the faces.
 template <int D, class Limited, int Axis, class G>
 void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D, kGases<G>>& work) {
   const auto next = Index<D>::unit(Axis);
@@ -89,12 +90,13 @@ void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, W
   halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
 }
 
-/// Whether loops may compute anything from states that do not belong together, and take no longer than for others.
+/// Whether loops may also run over inconsistent states, with arbitrary results, without taking longer than for other
+/// states.
 template <class G>
 inline constexpr bool takesAnyStates = std::is_same_v<G, StiffenedGas>;
 
-/// Calls `visit(first, count)` for the cells of a box in long stretches of memory if `Long`, else in rows. In between
-/// the rows, where stretches have cells outside the box, loops compute what nothing reads.
+/// Calls `visit(first, count)` for the cells of a box: in long stretches of memory if `Long`, otherwise row by row. For
+/// cells of stretches that are outside the box, loops compute values that nothing reads.
 template <int D, bool Long, class Visit>
 void forEachPart(const Box& box, const Box& held, Visit&& visit) {
   if constexpr (Long && D > 1)
@@ -125,7 +127,7 @@ void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D
   });
 }
 
-/// Computes fluxes through the lower faces of the cells of `faces` across an axis.
+/// Computes the fluxes along an axis through the lower faces of the cells of `faces`.
 template <int D, class Flux, class Shape, int Axis, class G>
 void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Rows<D, kGases<G>>& flux) {
   constexpr bool constant = Shape::reach == 1;
@@ -137,7 +139,7 @@ void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Row
   });
 }
 
-/// Adds the net inflow of each gas across an axis, for several gases.
+/// Adds the net inflow of each of several gases along an axis.
 template <int D, int Axis, int K>
 void addFluxesOfEach(double ratio, const Index<D>& first, int count, const MixtureViews<D, const double>& old,
                      Rows<D, K>& flux, const MixtureViews<D, double>& fresh) {
@@ -152,7 +154,7 @@ void addFluxesOfEach(double ratio, const Index<D>& first, int count, const Mixtu
   }
 }
 
-/// Adds the net inflow across an axis: for the first axis, to the old state; for the others, to the new one.
+/// Adds the net inflow along an axis: for the first axis, to the old state; for the others, to the new one.
 template <int D, int Axis, int K>
 void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
                const ViewsOf<D, K, double>& fresh) {
@@ -170,7 +172,7 @@ void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>
   });
 }
 
-/// Stores the fluxes across an axis through the rim of the level.
+/// Stores the fluxes along an axis through the rim of the level.
 template <int D, int K>
 void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>& flux) {
   if (rims.mass.empty()) return;

@@ -4,8 +4,8 @@
 
 namespace tushar::euler {
 
-/// Performs a step for columns of cells along z, plane after plane; the result is bitwise that of advanceBlock. It
-/// stores only the planes that it needs at a time, and computes nothing twice along z.
+/// Performs a step for columns of cells along z, plane after plane; the result is bitwise equal to that of
+/// advanceBlock. It stores only the planes that it needs at a time, and computes nothing twice along z.
 template <class Flux, class Shape, class G>
 class ColumnStep {
  public:
@@ -61,17 +61,17 @@ class ColumnStep {
     recover<3>(gas_, level_, planes, old_, work_.w);
     fillBeyondGrid<3>(level_, rules_, work_.w, planes);
   }
-  /// Computes the fluxes across z through the lower faces of a plane.
+  /// Computes the fluxes along z through the lower faces of a plane.
   void rise(const Box& plane) {
     computeFluxes<3, Flux, Shape, z>(gas_, plane, work_, rising_);
     keepAtRim<3>(rims_, plane, z, rising_);
   }
-  /// Computes the change of a plane due to the fluxes across x and y.
+  /// Computes the change of a plane due to the fluxes along x and y.
   void cross(const Box& plane) {
     sweep<3, Flux, Shape, 0>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
     sweep<3, Flux, Shape, 1>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
   }
-  /// Adds the change of a plane due to the fluxes across z.
+  /// Adds the change of a plane due to the fluxes along z.
   void add(const Box& plane) {
     rims_.masses.keep(plane, z, rising_);
     addFluxes<3, z>(dt_ / level_.spacing(z), plane, old_, rising_, fresh_);
@@ -85,7 +85,7 @@ class ColumnStep {
   const ViewsOf<3, kGases<G>, double>& fresh_;
   const RimFluxes<3>& rims_;
   Work<3, kGases<G>> work_;
-  Rows<3, kGases<G>> rising_;  ///< fluxes across z through the faces of two planes
+  Rows<3, kGases<G>> rising_;  ///< fluxes along z through the faces of two planes
 };
 
 }  // namespace tushar::euler

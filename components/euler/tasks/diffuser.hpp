@@ -78,7 +78,7 @@ class Diffuser {
     fillBeyondGrid<D>(level_, rules_, w_);
     fillBeyondGrid<D>(level_, mirrors_, coefficients_);
   }
-  /// Computes the fluxes through the lower faces of `faces` across an axis [Pa and W/m²].
+  /// Computes the fluxes along an axis through the lower faces of the cells of `faces` [Pa and W/m²].
   Rows<D>& computeFluxes(const Box& faces, int axis) {
     const Spacing<D> spacing(level_, w_);
     forEach<D>(faces, [&](const Index<D>& face) {

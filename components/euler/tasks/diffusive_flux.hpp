@@ -21,7 +21,7 @@ struct Spacing {
   }
 };
 
-/// Computes the fluxes across an axis through the lower face of position `i`.
+/// Computes the fluxes along an axis through the lower face of the cell at position `i`.
 template <int D>
 State<D> diffusiveFluxAt(const Diffusion& diffusion, const typename Rows<D>::Pointers& w, const Spacing<D>& by,
                          int axis, std::ptrdiff_t i) {
@@ -47,7 +47,7 @@ State<D> diffusiveFluxAt(const Diffusion& diffusion, const typename Rows<D>::Poi
   return flux;
 }
 
-/// Stores the fluxes across an axis through faces at the rim of the level.
+/// Stores the fluxes along an axis through faces at the rim of the level.
 template <int D>
 void keepDiffused(const DiffusionRims<D>& rims, const Box& faces, int axis, Rows<D>& flux) {
   rims.momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {

@@ -3,9 +3,9 @@
 #include "components/euler/fluxes.hpp"
 #include "components/euler/rows.hpp"
 
-// The equations, as loops over the cells of a row. No iteration reads what another one writes, which ivdep tells the
-// compiler. All loops except that of the exact flux are vectorised; the bits of a cell do not depend on where its row
-// begins.
+// The equations, as loops over the cells of a row. No iteration reads what another one writes, as the pragma ivdep
+// declares. All loops except that of the exact flux are vectorised; the values of a cell are bitwise independent of
+// where its row begins.
 
 namespace tushar::euler {
 
@@ -40,7 +40,7 @@ void reconstructRow(const double* below, const double* w, const double* above, i
   }
 }
 
-/// Computes the flux F across an axis from primitive values.
+/// Computes the flux F along an axis from primitive values.
 template <int D, int Axis, class G>
 State<D, kGases<G>> fluxOf(const G& gas, const State<D, kGases<G>>& w) {
   FaceState<D, kGases<G>> face{w, conserved<D>(gas, w)[kPressure<D>]};
@@ -48,7 +48,7 @@ State<D, kGases<G>> fluxOf(const G& gas, const State<D, kGases<G>>& w) {
   return fluxOf<D, Axis>(face);
 }
 
-/// Adds to `change` the half-step change of cells due to the fluxes of their own face values across an axis (Toro,
+/// Adds to `change` the half-step change of cells due to the fluxes of their own face values along an axis (Toro,
 /// section 14.4); `ratio` is dt / 2 h.
 template <int D, int Axis, class G>
 void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointers<D, kGases<G>>& upper, double ratio,
@@ -108,7 +108,7 @@ void flattenRow(const double* least, const Pointers<D, K>& w, int count, const P
     for (std::size_t k = 0; k < w.size() && !(least[i] > 0); ++k) lower[k][i] = upper[k][i] = w[k][i];
 }
 
-/// Computes fluxes through the lower faces of `count` cells across `Axis`, from the states on both sides.
+/// Computes the fluxes along `Axis` through the lower faces of `count` cells, from the states on both sides.
 template <int D, class Flux, int Axis, class G>
 void fluxRow(const G& gas, const Pointers<D, kGases<G>>& below, const Pointers<D, kGases<G>>& above, int count,
              const Pointers<D, kGases<G>>& flux) {
@@ -117,8 +117,8 @@ void fluxRow(const G& gas, const Pointers<D, kGases<G>>& below, const Pointers<D
     store<D>(flux, i, fluxOf<D, Axis>(Flux::template solve<D, Axis>(gas, load<D>(below, i), load<D>(above, i))));
 }
 
-/// Computes new = old - ratio (flux of the upper face - flux of the lower face) for one component. The numbers of
-/// neighbouring cells in `old` and `result` are `step` places apart; both may be the same array.
+/// Computes new = old - ratio (flux of the upper face - flux of the lower face) for one component. In `old` and
+/// `result`, which may be the same array, neighbouring cells are `step` places apart.
 inline void updateRow(const double* old, const double* below, const double* above, double ratio, int step, int count,
                       double* result) {
 #pragma GCC ivdep

@@ -89,7 +89,7 @@ euler::GasObject objectOf(const euler::GasObject& common, const FractionRegion& 
   euler::GasObject object = common;
   object.where = region.where;
   object.shape = std::make_shared<const input::Intersection>(std::vector<input::PiecePtr>{common.shape, region.shape});
-  // All at one temperature and pressure: m R T = z p, rho_k R_k = rho R.
+  // Both gases have the same temperature and pressure: m R T = z p, rho_k R_k = rho R.
   object.density = number(density * gasConstant / gas.gasConstant);
   object.share = number(part * gas.gasConstant / gasConstant);
   return object;

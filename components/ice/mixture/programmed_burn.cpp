@@ -14,7 +14,7 @@ const input::Schema<ProgrammedBurn>& programmedBurnSchema() {
           .required("direction_if_plane", &ProgrammedBurn::direction, "1",
                     "normal of the plane from which the detonation runs; [0,0,0]: it runs from the point")
           .value("react_mixed_cells", &ProgrammedBurn::burnsInMixedCells, true, "1",
-                 "whether cells burn in which the two gases fill at most .99 of the volume")
+                 "whether cells burn even if the two gases fill at most .99 of their volume")
           .ignored("AMR_Refinement_Criteria",
                    "a <Variable> in <Refinement_Criteria_Thresholds> determines where cells are finer");
   return schema;

@@ -34,10 +34,10 @@ class ImplicitStep {
       forEach<D>(level_.clipCells(block.grown(1, D)), [&](const Index<D>& cell) { goHalfway(cell); });
   }
 
-  /// Computes the fluxes through the lower faces of `faces` across an axis. u_f transports the values of the upwind
-  /// cell, half a step later. The pressure is the mean of p' on both sides; in compression, it also contains the
-  /// viscosity of von Neumann and Richtmyer for a strong shock, (gamma + 1) / 2 rho (dv)². Returns the largest fraction
-  /// of a cell that flows through a face.
+  /// Computes the fluxes along an axis through the lower faces of the cells of `faces`. u_f transports the values of
+  /// the upwind cell, half a step later. The pressure is the mean of p' on both sides; in compression, it also contains
+  /// the viscosity of von Neumann and Richtmyer for a strong shock, (gamma + 1) / 2 rho (dv)². Returns the largest
+  /// fraction of a cell that flows through a face.
   double computeFluxes(const Box& faces, int axis) {
     return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
   }
@@ -68,8 +68,8 @@ class ImplicitStep {
   }
   euler::Rows<D, K>& flux() { return flux_; }
 
-  /// Adds gravity to each cell of a block, in equal parts at both of its faces across an axis, and its work on the flow
-  /// through these faces. So stratified gas remains at rest.
+  /// Adds the component of gravity along an axis to each cell of a block, in equal parts at the two faces normal to the
+  /// axis, and its work on the flow through these faces. So stratified gas remains at rest.
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
     addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
   }
@@ -113,8 +113,8 @@ class ImplicitStep {
     const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
     const double rho = flow_.density(face, axis);
     const double viscous = together > 0 ? shockSlope(face, axis) * rho * together * together : 0;
-    // Where a velocity is given without a pressure, as at a wall, p' follows from the cell, whose centre is half a cell
-    // away.
+    // If a velocity is given without a pressure, as at a wall, p' follows from the adjacent cell, whose centre is half
+    // a cell away.
     const double weight = flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis] : 0;
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
   }

@@ -28,7 +28,8 @@ void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<
   });
 }
 
-/// The room that bodies leave the gas: the share of a cell, and that from which on the cell counts as free of bodies.
+/// The space that bodies leave to the gas: the label of the free fraction of a cell, and the smallest fraction at which
+/// a cell counts as free of bodies.
 struct RoomOfGas {
   const CellLabel<double>* free = nullptr;  ///< null where there are no bodies
   double whole = 1;
@@ -53,7 +54,7 @@ struct ScalarBefore {
   }
   bool hasGas(const Index<D>& cell) const { return density[cell] > 0; }
   double value(const Index<D>& cell) const { return hasGas(cell) ? held[cell] / density[cell] : 0; }
-  /// Whether a cell has no slopes, because there is a body in it or beside it.
+  /// Whether a cell has no slopes because there is a body in it or next to it.
   bool isFlat(const Index<D>& cell) const {
     if (!free) return false;
     const auto isPlain = [&](const Index<D>& at) {
@@ -146,8 +147,8 @@ class ScalarAtFaces {
   std::vector<Faces> values_;
 };
 
-/// The flux of a scalar through the faces of cells, kg/(m² s). Where a body has left a donor no gas, what flows out of
-/// it is like the gas of the receiver or, without any there, like that around the donor.
+/// The flux of a scalar through the faces of cells [kg/(m² s)]. If the cell from which gas flows, the donor, had no gas
+/// before the step, f is that of the receiver or, if the receiver had none either, the mean around the donor.
 template <int D>
 class ScalarFlux {
  public:
@@ -177,7 +178,7 @@ class ScalarFlux {
   }
 
  private:
-  /// f of what flows out of a donor through its lower (0) or upper (1) face.
+  /// f of the gas that flows out of a donor through its lower (0) or upper (1) face.
   double carriedFrom(const Index<D>& donor, const Index<D>& receiver, int axis, int side) const {
     if (before_.hasGas(donor)) return faces_.at(donor, axis, side);
     if (before_.hasGas(receiver)) return faces_.at(receiver, axis, 1 - side);

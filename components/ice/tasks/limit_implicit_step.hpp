@@ -16,10 +16,10 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
 /// Returns the largest s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2 of the patch [1/s], where r = sum_d (|v_d| + k c) /
 /// h_d + 2 nu / h_d². s is the rate at which gas crosses a cell. It includes the acceleration a_d = |g_d - (dp/dx_d) /
 /// rho|, so that gas initially at rest does not cross a cell within the step. |v_d| is the maximum of the cell's
-/// velocity and of the velocities prescribed at its faces. The pressure in a_d is `pushing`, that at the end of the
-/// previous step; the pressure of the gas itself also contains the effect of conduction, which sound equalises before
-/// it moves the gas. k is Uintah's `knob_for_speedSound`; `diffusivity(rho)` is nu [m²/s]. Source: N. Kwatra & al., J.
-/// Comput. Phys. 228 (2009) 4146, section 3.3.
+/// velocity and of the velocities prescribed at its faces. The pressure in a_d is `pushing`, the pressure at the end of
+/// the previous step. It is not the pressure of the gas itself, which also contains the effect of conduction; sound
+/// equalises that effect before it moves the gas. k is Uintah's `knob_for_speedSound`; `diffusivity(rho)` is nu [m²/s].
+/// Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
 template <int D, int K, class Diffusivity>
 double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing,
                             double soundSpeedKnob, Diffusivity&& diffusivity) {

@@ -43,9 +43,9 @@ void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics)
   for (const GasSection& material : properties.mpm.materials)
     for (const GasObjectSection& object : material.objects)
       if (object.placement != Placement::midpoint)
-        diagnostics.error(
-            object.where, "MaterialProperties/MPM/material/geom_object",
-            "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
+        diagnostics.error(object.where, "MaterialProperties/MPM/material/geom_object",
+                          "placement: the boxes of <conserving_gas_dynamics> must fill the gas without gaps; use "
+                          "midpoint, or <gas_dynamics>");
 }
 
 /// Refuses several gases unless the settings support them: <conserving_gas_dynamics> with `apic`, without <remap>,

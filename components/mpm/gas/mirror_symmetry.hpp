@@ -2,9 +2,10 @@
 
 #include "components/mpm/shapes/linear.hpp"
 
-// Mirror symmetry to the bit: the mirror image of a scene has the mirror image of its result. Floating-point sums
-// depend on their order, so sums over particles and nodes treat both sides in the same way. Positions are measured from
-// the middle of a cell or of the grid, because distances from a lower corner round differently in the mirror image.
+// Bitwise mirror symmetry: the result of a mirrored scene is the exact mirror image of the original result.
+// Floating-point sums depend on their order, so sums over particles and nodes treat both sides in the same way.
+// Positions are measured from the middle of a cell or of the grid, because distances from a lower corner round
+// differently in the mirror image.
 
 namespace tushar::mpm::gas {
 

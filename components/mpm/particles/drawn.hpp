@@ -10,7 +10,7 @@
 namespace tushar::mpm {
 
 /// The quantities that are drawn at random. Each has a stream of its own: otherwise a particle with many pores would
-/// have much damage.
+/// also have much damage.
 enum class Drawing : std::uint64_t { threshold, yieldStress, damage, porosity };
 
 /// The n-th of four random numbers in (0, 1) for a particle, n = 0 ... 3. It depends on the quantity, the seed and the

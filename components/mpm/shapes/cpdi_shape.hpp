@@ -114,14 +114,14 @@ struct ConvectedShape {
       for (int d = D - 1; d >= 0; --d) number = number * nodes + static_cast<std::size_t>(cellOf[d][c]);
       return number;
     }
-    /// From there to node k of the cell.
+    /// The offset from this node to node k of the cell.
     static constexpr std::size_t offsetOf(int k) {
       std::size_t offset = 0;
       for (int d = D - 1; d >= 0; --d) offset = offset * nodes + ((k >> d) & 1);
       return offset;
     }
-    /// Component d of the product `edges` sigma_c, bitwise equal to Eigen's, which sums the last component in another
-    /// order.
+    /// Component d of the product `edges` sigma_c, bitwise equal to Eigen's result; Eigen sums the last component in
+    /// another order.
     [[gnu::always_inline]] static Corners atCorners(const Eigen::Matrix<double, D, D>& edges, int d) {
       std::array<Corners, D> part;
       for (int j = 0; j < D; ++j) part[j] = edges(d, j) * signs(j);

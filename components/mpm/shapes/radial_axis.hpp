@@ -7,8 +7,8 @@
 namespace tushar::mpm {
 
 // Shape functions along the radius of an axisymmetric problem, as in axis_shapes.hpp but per radian: `r` is the
-// particle's distance from the axis and `lowerNode` that of the lower node of its cell, in cells. `hoop` is S_i / r,
-// the velocity's part in the hoop strain.
+// distance of the particle from the axis, and `lowerNode` the distance of the lower node of its cell, both in cells.
+// `hoop` is S_i / r, the contribution of the radial velocity to the hoop strain.
 
 template <class Axis>
 struct RadialAxis;

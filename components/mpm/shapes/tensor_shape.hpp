@@ -120,8 +120,8 @@ struct TensorShape {
     }
   };
 
-  /// The stencils of several particles of a cell, with the same bits as Stencil. They are computed in advance with one
-  /// lane per particle, so that loops over nodes only load them.
+  /// The stencils of several particles of a cell, bitwise equal to those of Stencil. They are computed in advance with
+  /// one lane per particle, so that loops over nodes only load them.
   class Stencils {
    public:
     static constexpr int dimension = D;

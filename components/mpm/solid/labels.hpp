@@ -78,9 +78,9 @@ inline constexpr NodeLabel<Vec<D>> surroundingForce{"g.surroundingForce", "N",
                                                     "force exerted on the body by its surroundings, such as a gas"};
 inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units",
                                                   "mean velocity of a step, and work per mass", Counts::nearParticles};
-inline constexpr NodeLabel<SurfaceRecord> surfaceRecord{"g.surfaceRecord", "SI units",
-                                                        "what friction needs of a body at nodes where it meets others",
-                                                        Counts::nearParticles};
+inline constexpr NodeLabel<SurfaceRecord> surfaceRecord{
+    "g.surfaceRecord", "SI units", "surface of the body at nodes where it meets others, for friction",
+    Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> separatingNormal{
     "g.normAlphaToBeta", "1",

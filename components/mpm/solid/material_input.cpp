@@ -175,7 +175,7 @@ void acceptUintahsTags(Schema<Material>& tags) {
   for (const char* tag : {"D1", "D2", "D3", "D4", "D5"})
     tags.ignored(tag, "it has an effect only in <damage_model type=\"johnson_cook\">, as in Uintah");
   for (const char* tag : {"ThresholdTemp", "ThresholdPressure", "Enthalpy", "BurnCoeff", "refPressure"})
-    noteTag(tags, tag, "a <Model> in <Models> says how the material burns, as in Uintah");
+    noteTag(tags, tag, "a <Model> in <Models> specifies how the material burns, as in Uintah");
   requireSwitch(tags, "is_active", "all materials exist from the start");
   refuseSwitch(tags, "activation_time", "all materials exist from the start");
 }

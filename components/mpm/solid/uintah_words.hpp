@@ -3,7 +3,7 @@
 #include "core/input/refuse.hpp"
 #include "core/simulation/settings.hpp"
 
-// Tags of Uintah's <MPM> section that neither explicit nor implicit steps here have.
+// Tags of Uintah's <MPM> section that neither explicit nor implicit steps have in Tushar.
 
 namespace tushar::mpm::solid {
 

@@ -9,7 +9,8 @@ namespace tushar::mpmice {
 struct StressedParticles {
   ParticleView<const double> mass;
   ParticleView<const mpm::solid::Matrix3> deformation;
-  std::optional<ParticleView<const mpm::solid::Matrix3>> stress;  ///< if it does not follow from the deformation
+  std::optional<ParticleView<const mpm::solid::Matrix3>>
+      stress;  ///< stress, if it does not follow from the deformation
   std::optional<ParticleView<const double>> state;
 
   static StressedParticles from(auto& take, bool keepsStress, bool burnsCracks, const ParticleLabel<double>* state) {
@@ -20,13 +21,13 @@ struct StressedParticles {
   }
 };
 
-/// Whether the solids store the stress of a body, which does not follow from its deformation.
+/// Whether the solids store the stress of a body because it does not follow from the deformation.
 inline bool keepsStress(const mpm::solid::Material& material) {
   return material.isDamageable() || !material.model->dependsOnDeformationOnly();
 }
 
-/// Finds the mean pressure, Pa, of the body that burns in each cell, and its widest cracks, m; 0 where it is not, or
-/// cracks do not burn.
+/// Computes for each cell the mean pressure of the burning body [Pa], and the radius of its widest crack [m]. Both are
+/// 0 in cells without the body; the radius is also 0 if cracks do not burn.
 template <int D>
 void measureLoad(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                  int stateSize, const std::vector<StressedParticles>& bodies, CellView<double> pressure,
@@ -181,8 +182,8 @@ class BurnModes {
     });
     return found;
   }
-  /// Whether the surface of the body passes through a face of the cell: the masses at its nodes differ by more than 30
-  /// %.
+  /// Whether the surface of the body passes through a face of the cell: there, the areas of the cells on both sides
+  /// differ by more than 0.3 (see SurfaceAtFaces).
   bool isExposed(const Index<D>& cell) const {
     constexpr double least = 0.3;
     for (int d = 0; d < D; ++d) {
@@ -194,8 +195,8 @@ class BurnModes {
   }
   static bool burns(BurnMode mode) { return mode == BurnMode::surface || mode == BurnMode::cracks; }
 
-  /// Determines the mode of a cell with an induction time: it waits from the first step in which there is a flame
-  /// beside it.
+  /// Determines the mode of a cell with an induction time: it waits from the first step in which there is a flame next
+  /// to it.
   Found wait(const Index<D>& cell, const Conditions& now, const Waited& before, double dt) const {
     const bool burned = burns(before.modeIn(cell));
     const Flame flame = burned ? Flame{1, before.modeIn(cell)} : flameInto(cell, now, before);

@@ -9,9 +9,10 @@ namespace tushar::mpmice {
 
 /// The surface of bodies at the faces between cells.
 ///
-/// Each cell has an area along an axis, which is open or wall (see FreeSpace). Through a surface, it falls from 1 to 0.
-/// So its steps from cell to cell add up to the projection of the surface along the axis, wherever the surface lies.
-/// Multiplied by the components of the normal, these steps add up to the area of the surface.
+/// Along each axis, a cell has an area: open part and wall together (see FreeSpace). From the gas into a body, this
+/// area falls from 1 to 0. So its steps from cell to cell add up to the projection of the surface along the axis,
+/// wherever the surface lies. Multiplied by the components of the normal, these steps add up to the area of the
+/// surface.
 template <int D>
 class SurfaceAtFaces {
  public:
@@ -19,12 +20,12 @@ class SurfaceAtFaces {
       : level_(level), cells_(cells), space_(level, settings, cells) {}
 
   const FreeSpace<D>& space() const { return space_; }
-  /// The area along the axis of the cell below a face, minus that of the cell above.
+  /// The area along the axis in the cell below a face, minus the area in the cell above.
   double step(const Index<D>& above, int axis) const {
     return space_.faces(above - Index<D>::unit(axis), axis).area - space_.faces(above, axis).area;
   }
   /// The magnitude of the component along `axis` of the surface's unit normal at the lower face of a cell. The normal
-  /// is the direction of the gradient of the free volume, weighted 1 2 1 across the axis.
+  /// is the direction of the gradient of the free volume, with the weights 1 2 1 along the other axes.
   double normalAlong(const Index<D>& above, int axis) const {
     Vec<D> gradient = Vec<D>::Zero();
     for (int side = 0; side < 2; ++side) {
@@ -45,7 +46,7 @@ class SurfaceAtFaces {
   }
 
  private:
-  /// The weight of a cell at `offset` from a cell beside the face in the derivative along `d`.
+  /// The weight, in the derivative along `d`, of a cell at `offset` from a cell next to the face.
   static double weight(const Index<D>& offset, int axis, int d) {
     double product = 1;
     for (int k = 0; k < D; ++k)

@@ -7,11 +7,11 @@
 
 namespace tushar::mpmice {
 
-/// The volume fraction of a cell up to which a body in it does not ignite a surface, as in Uintah.
+/// The volume fraction of a cell that the gas or a body in it must exceed to ignite a surface, as in Uintah.
 inline constexpr double leastVisible = 0.2;
 
-/// Views of cell values of the burning body and of the other bodies, summed over the particles that start the step in
-/// the cell.
+/// Views of cell values of the burning body and of the other bodies, computed from the particles that are in the cell
+/// at the start of the step.
 template <class T>
 struct ReactantFields {
   CellView<T> mass, volume, temperature, others, hottest;

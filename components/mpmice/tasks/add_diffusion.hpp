@@ -17,7 +17,7 @@ class DiffusionBeside {
   DiffusionBeside(const Level& level, const Settings& settings, const GasInCells<D>& cells, const euler::Rows<D>& w)
       : level_(level), cells_(cells), space_(level, settings, cells), w_(w) {}
 
-  /// The diffusive fluxes [Pa and W/m²] through the lower face of a cell across an axis. `how(strain)` returns the
+  /// The diffusive fluxes [Pa and W/m²] along an axis through the lower face of a cell. `how(strain)` returns the
   /// coefficients at the face, where `strain()` returns sqrt(2 S : S) of the gas beside the face [1/s].
   template <class How>
   euler::State<D> fluxThrough(const Index<D>& cell, int axis, How&& how) const {
@@ -131,7 +131,7 @@ struct RimsOfDiffusion : euler::DiffusionRims<D> {
 
 /// Adds the changes due to viscosity and conduction in a step to the state before small cells are merged, given the
 /// state at the start of the step. The fluxes pass through the open fractions of faces. Friction at walls is computed
-/// together with the pressure on walls. Away from bodies, the result is bitwise that of `euler`.
+/// together with the pressure on walls. Away from bodies, the result is bitwise equal to that of `euler`.
 template <int D>
 void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
                   CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {

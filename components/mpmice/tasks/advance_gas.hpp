@@ -46,7 +46,8 @@ void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, co
   });
 }
 
-/// Makes each cell constant that has a body in it or next to it, as well as its images outside the grid.
+/// Makes the state constant in each cell that has a body in it or next to it, and in the images of such cells outside
+/// the grid.
 template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D, K>& work) {
@@ -82,8 +83,8 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   });
 }
 
-/// Stores the mass that flows upwards through the lower faces of a block's cells across an axis, relative to the
-/// bodies, per cell volume.
+/// Stores the mass that flows upwards along an axis through the lower faces of a block's cells, relative to the bodies,
+/// per cell volume.
 template <int D, int K>
 void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
                   const euler::Rows<D, K>& flux, const CellView<Vec<D>>& flow) {
@@ -93,7 +94,7 @@ void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, co
   });
 }
 
-/// Adds the fluxes through the open parts of a block's faces across an axis.
+/// Adds the fluxes along an axis through the open parts of a block's faces.
 template <int D, class Flux, class Shape, int Axis, class G>
 void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
                const Box& block, double ratio, const euler::MixtureViews<D, const double>& old,
@@ -206,10 +207,10 @@ void requireFinest(const Patch& patch, const NearBodies<D>& near) {
   });
 }
 
-/// Performs one step of the gas. Away from bodies, it is bitwise a step of `euler`. At bodies, fluxes pass through the
-/// open fractions of faces. Walls exert a pressure, which does work at the mean of their velocities before and after
-/// the step, and gas follows moving walls. Adds the power of the gas on bodies [W] to `power`. K is the number of gases
-/// that share cells.
+/// Performs one step of the gas. Away from bodies, the step is bitwise equal to one of `euler`. At bodies, fluxes pass
+/// through the open fractions of faces. Walls exert a pressure, which does work at the mean of their velocities before
+/// and after the step, and gas follows moving walls. Adds the power of the gas on bodies [W] to `power`. K is the
+/// number of gases that share cells.
 template <int D, class Flux, class Shape, int K>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
                 const GasInCells<D>& cells, const BodiesInStep<D>& bodies,

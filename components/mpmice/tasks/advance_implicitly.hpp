@@ -21,8 +21,8 @@ struct GasInStep {
   }
 };
 
-/// Adds the fluxes of an implicit step through the open fractions of a block's faces across an axis, and gravity along
-/// it. Returns the largest fraction of a cell that flows through a face.
+/// Adds the fluxes of an implicit step along an axis through the open fractions of a block's faces, and gravity along
+/// this axis. Returns the largest fraction of a cell that flows through a face.
 template <int D, int Axis>
 double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level, const Box& block,
                        double dt, const GasInCells<D>& cells, ice::ImplicitStep<D>& step, const UnsharedGas<D>& fresh,

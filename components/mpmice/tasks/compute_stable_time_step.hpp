@@ -51,7 +51,7 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
 }
 
 /// Computes dt = cfl times the time in which the fastest wave of a body crosses a cell. This limit is needed because
-/// the gas sees bodies move only once per step.
+/// bodies move only once per step of the gas.
 inline void limitStepOfBodies(const Patch&, double cfl, double stableTimeStep, Minimum& dt) {
   dt.add(cfl * stableTimeStep, "wave speed of bodies");
 }

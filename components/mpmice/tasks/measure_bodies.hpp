@@ -149,8 +149,8 @@ void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const Partic
   });
 }
 
-/// The position of a particle, limited to the distance from its starting cell that patches can see. The limits of the
-/// time step keep it closer.
+/// The position of a particle, limited to the distance from its starting cell within which patches read particles. The
+/// limits of the time step keep it closer.
 template <int D>
 Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {
   const Vec<D> least = edges.array() - boxReach, most = boxReach + 1 - edges.array();

@@ -6,7 +6,7 @@
 namespace tushar::mpmice {
 
 /// Distance from bodies, in cells, within which all cells are on the finest level, so that no coarser cell has a wall.
-/// A step sees bodies two cells away, and faces one cell farther.
+/// A step depends on bodies two cells away, and on faces one cell farther.
 inline constexpr int markedLayers = 3;
 
 /// Marks cells near bodies for refinement.

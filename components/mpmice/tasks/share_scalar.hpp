@@ -4,8 +4,8 @@
 
 namespace tushar::mpmice {
 
-/// A scalar after a step, times the mass per volume of the cell: where small cells are merged with neighbours, it is
-/// distributed as their mass is. `density` is that after merging.
+/// Computes a scalar after a step, times the mass per cell volume. Where small cells are merged with neighbours, this
+/// product is distributed in the same way as the mass. `density` is the density after merging.
 template <int D>
 void shareScalar(const Patch& patch, const Settings& settings, const Unshared<D>& state,
                  CellView<const double> unshared, CellView<const double> density, CellView<double> held) {

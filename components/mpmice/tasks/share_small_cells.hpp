@@ -39,8 +39,8 @@ class SmallCells {
       : level_(level), thin_walls_(thinWalls), state_(state) {}
 
   /// The neighbour that receives the gas of a small cell: one with enough free volume, otherwise one that has more free
-  /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself. Of two equal
-  /// ones, it is the lower one.
+  /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself. Of two equally
+  /// suitable neighbours, it is the lower one.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
@@ -62,8 +62,8 @@ class SmallCells {
     });
   }
 
-  /// Calls `visit(member)` for the cells that share their content through a target, the target first; returns whether
-  /// a cell, which has this target, shares with others.
+  /// Calls `visit(member)` for the cells that share their content through the target `centre`, which comes first.
+  /// Returns whether `cell`, whose target this is, shares with others.
   template <class Visit>
   bool forEachInPool(const Index<D>& cell, const Index<D>& centre, Visit&& visit) const {
     visit(centre);

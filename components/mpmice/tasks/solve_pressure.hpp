@@ -121,7 +121,7 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
   });
 }
 
-/// Returns whether a cell is piecewise constant, because a body is in it or next to it, as a function.
+/// A function that returns whether a cell is piecewise constant because a body is in it or next to it.
 template <int D>
 ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   return [&level, cells](const Index<D>& cell) {

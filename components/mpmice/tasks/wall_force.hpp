@@ -155,8 +155,8 @@ Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<
   return level.cellVolume() * force;
 }
 
-/// Whether the lower face of a cell across an axis is a face of the grid. The cell may be just beyond the upper side,
-/// whose faces belong to the grid.
+/// Whether a cell's lower face along an axis is a face of the grid. The cell may be just beyond the upper side, whose
+/// faces belong to the grid.
 template <int D>
 bool isFace(const Level& level, const Index<D>& cell, int axis) {
   for (int d = 0; d < D; ++d) {

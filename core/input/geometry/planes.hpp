@@ -8,7 +8,7 @@
 #include "core/input/geometry/piece.hpp"
 #include "core/input/schema.hpp"
 
-// Shapes that straight lines or planes bound.
+// Shapes bounded by straight lines or planes.
 
 namespace tushar::input {
 

@@ -6,7 +6,7 @@
 
 #include "core/input/geometry/shapes.hpp"
 
-// The tags of each shape, and what makes it degenerate.
+// The tags of each shape, and checks that it is not degenerate.
 
 namespace tushar::input {
 

@@ -16,7 +16,7 @@ struct SmoothCylinder : GeometryPiece {
   /// A particle of the cylinder.
   struct Particle {
     Vec3 at;  ///< position [m]
-    /// Edge vectors as columns: around, outwards, along the axis [m].
+    /// Edge vectors as columns: around the axis, outwards, and along the axis [m].
     Eigen::Matrix<double, 3, 3, Eigen::DontAlign> edges;
     double volume;  ///< volume [m^3]
   };

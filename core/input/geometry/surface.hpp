@@ -17,7 +17,7 @@ using Triangles = std::vector<std::array<Vec3, 3>>;
 
 /// The points inside a surface of triangles.
 ///
-/// A line along x through an inside point crosses a closed surface an odd number of times on each side of the point. An
+/// A line along x through a point inside crosses a closed surface an odd number of times on each side of the point. An
 /// edge shared by two triangles is cut in the same way for both, so that no line slips through between them. Where
 /// corners of adjacent triangles differ, as in meshes whose caps and walls were made separately, lines may slip
 /// through; then a majority of the three lines along x, y and z decides.
@@ -33,14 +33,14 @@ class Surface : public GeometryPiece {
   double disagreement() const;
 
  private:
-  /// Triangles, sorted into bins of those lines along an axis that may cross them. The coordinates are permuted so that
-  /// this axis comes first.
+  /// Triangles for lines along one axis. Each bin covers some of these lines and lists the triangles that they may
+  /// cross. The coordinates are permuted so that the axis of the lines comes first.
   struct Lines {
     Triangles triangles;
     std::vector<std::vector<int>> crossing;  ///< indices of the triangles in each bin
   };
   Lines linesAlong(int axis) const;
-  /// Number of times that a line along an axis through a point crosses the surface.
+  /// How often a line along an axis crosses the surface, ahead of a point on the line and behind it.
   struct Crossings {
     std::size_t ahead = 0, behind = 0;
   };
@@ -49,7 +49,7 @@ class Surface : public GeometryPiece {
 
   Triangles triangles_;
   Box3 bounds_;
-  std::size_t bins_;          ///< number of bins across the lines, along each axis
+  std::size_t bins_;          ///< number of bins along each axis perpendicular to the lines
   std::vector<Lines> lines_;  ///< lines along x; where the surface is open, also along y and z
 };
 
@@ -57,9 +57,9 @@ class Surface : public GeometryPiece {
 /// empty if the surface is closed.
 std::string whyOpen(const Triangles& triangles);
 
-/// Reads triangles from files. If `path` ends in `.stl`, this is a text or binary STL file. Otherwise, the triangles
-/// are in the file NAME.tri, with three indices of points per line, counted from 0, and the points in the file
-/// NAME.pts, with three coordinates per line. If a line is malformed, or a file is missing or ends early, reports an
+/// Reads triangles from files. If `path` ends in `.stl`, it names a text or binary STL file. Otherwise, the triangles
+/// are in the file `path`.tri, with three indices of points per line, counted from 0, and the points in the file
+/// `path`.pts, with three coordinates per line. If a line is malformed, or a file is missing or ends early, reports an
 /// error at `tag` that names the file, and returns no triangles.
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 

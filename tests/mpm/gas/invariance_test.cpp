@@ -4,7 +4,7 @@
 
 #include "tests/mpm/gas/gas_scene.hpp"
 
-// What must not matter: the units of a scene, and which way it faces.
+// Results must not depend on the units of a scene or on its direction.
 
 namespace tushar::mpm::gas {
 
@@ -71,7 +71,7 @@ constexpr Half dense{1, 0.75, 1}, thin{0.125, -0.25, 0.1};
 /// Two gases that collide, so that cells hold up to six particles.
 constexpr Half hard{1, 3, 1}, soft{1, -2, 0.01};
 
-/// The greatest difference of two runs, the second in other units: relative to the box, the speed of sound and its
+/// The greatest difference between two runs, the second in other units, relative to the box, the speed of sound and its
 /// square.
 double difference(const std::vector<Particle>& one, const std::vector<Particle>& other, const Units& units) {
   EXPECT_EQ(one.size(), other.size());

@@ -5,7 +5,7 @@
 
 #include "tests/mpm/gas/gas_scene.hpp"
 
-// The mirror image of a scene in two and three dimensions, by the conserving methods.
+// The mirror image of a scene in two and three dimensions, with the conserving methods.
 
 namespace tushar::mpm::gas {
 

@@ -24,7 +24,7 @@ Level grid() {
 }
 
 /// A particle at a position where shape functions may go wrong: anywhere, on a face between cells, on an edge or
-/// corner, right at a side of the grid, or a hair's breadth from one of these.
+/// corner, right at a side of the grid, or extremely close to one of these.
 template <int D>
 struct Somewhere {
   Index<D> cell;
@@ -317,7 +317,7 @@ TEST(CpdiDomain, IsThatOfGimpForAnUndeformedParticleInOneDimension) {
   Extent<1> extent;
   extent.size[0] = 0.5;
   extent.halfEdges(0, 0) = 0.25;
-  // Within a cell, where the tent is straight over the whole particle, both are the tent itself.
+  // Within a cell, where the tent function is linear over the whole particle, both equal the tent function.
   const Index<1> cell{{4}};
   const Vec<1> x(level.nodePosition(0, 4) + 0.4 * level.spacing(0));
   Nodes<CubicShape<1>> cpdi, gimp;

@@ -189,7 +189,7 @@ class Archive(Sequence[Snapshot]):
         if isinstance(index, slice):
             return [self[k] for k in range(*index.indices(len(self)))]
         if isinstance(index, str):
-            raise ArchiveError(f"outputs go by number: archive[-1]['{index}'], or archive.globals['{index}']")
+            raise ArchiveError(f"outputs are selected by number: archive[-1]['{index}'], or archive.globals['{index}']")
         count = len(self)
         if not -count <= index < count:
             if not count:

@@ -6,9 +6,8 @@ from typing import List, Union
 
 
 def rows_of(path: Union[str, "os.PathLike[str]"]) -> List[List[float]]:
-    """The numbers in each line, without an incomplete last line that a run is still writing. Raises OSError where there
-    is no
-    file."""
+    """The numbers in each line, without an incomplete last line that a run is still writing. Raises OSError if there is
+    no file."""
     with open(path, encoding="utf-8") as file:
         lines = [line.split() for line in file if line.endswith("\n") and not line.startswith("#")]
     count = len(lines[0]) if lines else 0

@@ -169,8 +169,7 @@ def _names_of_components(variable: Variable) -> Dict[str, Any]:
 
 def dataset(archive: Archive, snapshots: Sequence[Snapshot], names: Optional[Sequence[str]] = None) -> Any:
     """Fields over time, read lazily. All outputs have the grid and the fields of the last, or not a number; a refined
-    grid
-    is sampled onto the finest level of the last."""
+    grid is sampled onto the finest level of the last."""
     xarray = need("xarray", "to_xarray")
     if not snapshots:
         raise ArchiveError(f"'{archive.folder}' has no outputs yet")

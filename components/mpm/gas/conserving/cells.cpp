@@ -12,7 +12,7 @@ namespace {
 /// Harmonic mean; 0 if the signs differ.
 Lanes harmonicMean(Lanes a, Lanes b) { return select(a * b > 0, 2 * a * b / (a + b), 0); }
 
-/// The shock sensor: 0 if a velocity difference is below .05 c, 1 from .15 c on.
+/// The shock sensor: 0 if the velocity difference is below .05 c, and 1 if it is above .15 c.
 Lanes sensor(Lanes difference, Lanes soundSpeed) {
   return select(soundSpeed > 0, clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0), 1);
 }

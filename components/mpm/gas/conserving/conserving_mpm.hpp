@@ -22,7 +22,7 @@ namespace tushar::mpm::gas::conserving {
 ///   (E3) new e: e (1 + sum_c o_c f_c), and all the kinetic energy that (E1) and (E2) lose.
 /// The grid's state is gathered from the particles at the end of a step, so that the next time step can follow from it.
 ///
-/// conserving_mpm.cpp is the schedule; the bodies of its tasks are beside it.
+/// conserving_mpm.cpp is the schedule; the bodies of its tasks are in the other files of this folder.
 template <int D>
 class ConservingMpm : public GasMethod<ConservingGasDynamics> {
  public:

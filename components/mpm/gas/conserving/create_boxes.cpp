@@ -51,7 +51,7 @@ BoxContents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& o
   return held;
 }
 
-/// Sum of `held(offset, volume)` over the Gauss-Legendre points of a box, 3 per axis; the same bits for a mirrored box.
+/// Sum of `held(offset, volume)` over the Gauss-Legendre points of a box, 3 per axis; bitwise equal for a mirrored box.
 template <int D, class Held>
 BoxContents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
                              int axis = 0) {

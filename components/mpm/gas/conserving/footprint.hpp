@@ -155,7 +155,7 @@ struct Footprint {
     return first;
   }
 
-  /// Sum of `value(k, part)` over the cells k of the footprint; same bits for the mirror image.
+  /// Sum of `value(k, part)` over the cells k of the footprint; bitwise equal for the mirror image.
   template <class Value>
   Lanes sumOverParts(Value&& value) const {
     Index<D> k;

@@ -49,7 +49,7 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
   return select(swing > 0.8, 0.8 / swing, 1) * slopes;
 }
 
-/// The parts of a batch's particles in one cell each.
+/// The parts of the particles of a batch, each in one cell.
 template <int D>
 struct Part {
   LanesVec<D> x, edges;  ///< centre and edge lengths

@@ -136,7 +136,7 @@ struct Gathered {
   using FaceVelocity = std::conditional_t<apic, LanesVec<D>, Lanes>;
 
   std::array<LanesVec<D>, apic ? 1 : 1 << (Axis + 1)> moments;  ///< sums of y phi_a; for apic, only the first one
-  std::array<FaceVelocity, Axis + 1> lower, upper;              ///< velocities of the faces across each axis
+  std::array<FaceVelocity, Axis + 1> lower, upper;              ///< velocities of the faces normal to each axis
   LanesVec<D> moving = LanesVec<D>::Zero();                     ///< mean of v + faceTime dt a over the nodes [m/s]
   Lanes slipEnergy = 0;                                         ///< beta (2 - beta) |r|² / 2 [J/kg]
   Lanes square = 0;                                             ///< |y|² [J/kg]

@@ -54,7 +54,7 @@ struct CellProjection {
 CellProjection projectCell(const std::vector<PlacedDensity>& particles, const std::vector<PlacedDensity>& line);
 
 /// Computes E_m^i and its bound at the nodes [kg], and the largest ratios of |E_m^i| to the cell volume [kg/m³] and to
-/// its bound. A node beside a cell without particles has neither: both are set to 0.
+/// its bound. A node next to a cell without particles has neither: both are set to 0.
 void measureMassProjection(const Patch& patch, const Gas& gas, ParticleView<const Vec<1>> x,
                            ParticleView<const double> density, NodeView<double> error, NodeView<double> bound,
                            Maximum& greatestError, Maximum& greatestRatio);

@@ -20,7 +20,7 @@ struct CellPlaces {
       inverseSpacing[d] = level.inverseSpacing(d);
     }
   }
-  /// The centre of a cell, with the same bits as positionInCell computes.
+  /// The centre of a cell, bitwise equal to the result of positionInCell.
   Vec<D> centre(const Index<D>& cell) const {
     Vec<D> at;
     for (int d = 0; d < D; ++d) at[d] = middle[d] + (cell[d] - half[d]) * spacing[d];
@@ -31,8 +31,8 @@ struct CellPlaces {
 /// S_ip = S_i(x_p) in (6), (7), (12) and (13) of Tran, Kim & Berzins: Linear, for the particles of one cell.
 ///
 /// Positions are measured in cells from the centre of the cell, so that the factors 1/2 - xi of lower nodes and 1/2 +
-/// xi of upper nodes exchange their bits in the mirror image of a scene. Measured from the lower corner, 1 - xi and xi
-/// would round differently.
+/// xi of upper nodes exchange their values bitwise in the mirror image of a scene. Measured from the lower corner, 1 -
+/// xi and xi would round differently.
 template <int D>
 class ShapeFunctions {
  public:

@@ -67,8 +67,8 @@ void checkBodies(const Level& level, const Gas& gas) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-/// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
-/// x_p = (c + (k + 1/2) / N) h, or as the `placement` of the body says. Only points that belong to the shape get a
+/// Fills each body with its particles: `particlesPerCell` along each axis, at the centres of equal parts of the cell,
+/// x_p = (c + (k + 1/2) / N) h, or as the `placement` of the body specifies. Only points that belong to the shape get a
 /// particle, with the body's state at the point.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.

@@ -59,9 +59,9 @@ struct PlaceAndTime {
 
 // Stress and its tangent.
 
-/// J sigma, Pa, the wave speed, m/s, and the strain energy, J/m^3, of several particles at once, with the same
-/// arithmetic as for one: templates for a Real that is double or Lanes. Offer it where explicit steps spend their time
-/// in the stress.
+/// J sigma [Pa], the wave speed [m/s] and the strain energy [J/m^3] of several particles at once, with the same
+/// arithmetic as for one: templates for a Real that is double or Lanes. Offer it if explicit steps spend most of their
+/// time on the stress.
 struct Vectorized {
   struct Name {
     int kirchhoffStress;

@@ -115,7 +115,8 @@ struct CompMooneyRivlin {
     for (int k = 0; k < 3; ++k) stress(k, k) += i.third * slope(i.third);
     return scaled(stress, Real(2 / i.j));
   }
-  /// An entry of C2 B², bitwise equal to Eigen's, which rounds those of the first columns once per product.
+  /// An entry of C2 B², bitwise equal to Eigen's result; Eigen rounds the entries of the first columns only once per
+  /// product.
   template <class Real>
   Real squared(const TensorOf<Real>& b, int row, int k) const {
     const Real x = c2 * b(row, 0), y = c2 * b(row, 1), z = c2 * b(row, 2);

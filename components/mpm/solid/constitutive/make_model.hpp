@@ -6,7 +6,8 @@
 #include "components/mpm/solid/constitutive/all.hpp"
 #include "components/mpm/solid/material.hpp"
 
-// Models as particles use them: compiled for speed in one file, unlike what reads their constants.
+// Models in the form that particles use, compiled for speed in one file; the code that reads their constants is
+// separate.
 
 namespace tushar::mpm::solid {
 
@@ -24,7 +25,7 @@ template <class... Ms>
 struct MakersOf<std::tuple<Ms...>> {
   using type = std::tuple<MakeModel<Ms>...>;
 };
-/// What makes each of AllModels.
+/// The functions that make each of AllModels.
 const MakersOf<AllModels>::type& modelMakers();
 
 /// The model of a material for use by its particles.

@@ -254,7 +254,7 @@ class ModelOf : public Model {
   static void storeFew(const Lanes& values, int count, double* to) {
     for (int lane = 0; lane < std::min(count, Lanes::count); ++lane) to[lane] = values[lane];
   }
-  /// And the energies, if wanted.
+  /// Computes wave speeds and, if requested, strain energies.
   void findWaveSpeeds(double initialDensity, const StressPoints& points) const {
     for (int k = 0; k < points.count; k += Lanes::count) {
       const int count = points.count - k;

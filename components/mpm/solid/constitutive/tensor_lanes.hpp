@@ -29,7 +29,7 @@ template <class Real>
   return t(0, 0) + (t(1, 1) + t(2, 2));
 }
 
-/// sum_ij t_ij², bitwise equal to Eigen's of one tensor.
+/// sum_ij t_ij², bitwise equal to Eigen's result for a single tensor.
 template <class Real>
 [[gnu::always_inline]] inline Real squaredNorm(const TensorOf<Real>& t) {
   std::array<Real, 9> square;

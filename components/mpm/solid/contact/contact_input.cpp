@@ -174,15 +174,16 @@ void addMaster(Schema<ContactSection>& contact) {
 
 void addFriction(Schema<ContactSection>& contact) {
   contact
-      .optional("mu", &ContactSection::friction, "1", "coefficient of friction; needed for friction and approach",
+      .optional("mu", &ContactSection::friction, "1",
+                "coefficient of friction; required for approach and for all types with friction except friction_LRVar",
                 input::nonNegative())
       .section("variable_friction", &ContactSection::frictionTable, frictionTableSchema())
       .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
-             "for friction, approach (not for friction_LR and its variants): bodies farther apart than this many cells "
-             "do not touch",
+             "for friction, friction_bard, friction_conserving and approach: distance in cells beyond which bodies do "
+             "not touch",
              input::positive())
       .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
-             "for friction, approach (not for friction_LR and its variants): fraction of the volume around a node that "
+             "for friction, friction_bard, friction_conserving and approach: fraction of the volume around a node that "
              "bodies must fill to touch there",
              input::nonNegative());
 }

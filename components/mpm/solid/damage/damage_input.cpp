@@ -125,7 +125,7 @@ void checkScaling(const ThresholdDamage& read, const Element& element, Diagnosti
 const Schema<ThresholdDamage>& ThresholdDamage::schema() {
   using Self = ThresholdDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "A particle fails immediately above a threshold.");
+    Schema<Self> tags("damage_model", "A particle fails at once if a stress or strain exceeds a threshold.");
     declareThreshold(tags);
     tags.required("failure_mean", &Self::mean, "Pa or 1", "mean of the threshold; for MohrCoulomb, of the cohesion",
                   input::positive())
@@ -154,7 +154,9 @@ const Schema<ThresholdVarDamage>& ThresholdVarDamage::schema() {
       Schema<Table>("variable_properties", "Thresholds as a function of p.color, linear between the entries.")
           .list("entry", &Table::entries, entry, "the threshold for one color, in order of increasing color", 1);
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "A particle fails immediately above a threshold that depends on its color.");
+    Schema<Self> tags(
+        "damage_model",
+        "A particle fails at once if a stress or strain exceeds a threshold that depends on the particle's color.");
     declareThreshold(tags);
     tags.requiredSection("variable_properties", &Self::table, byColor)
         .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {

@@ -18,8 +18,8 @@ struct Erosion {
     preserveStress   ///< all stress remains: the particle is only marked
   };
   Algorithm algorithm = Algorithm::none;
-  /// Decay time of the lost stress [s]. It is exact for stresses that are functions of F; those that a model increments
-  /// decay anew in each step.
+  /// Decay time of the lost stress [s]. It is exact for stresses that are functions of F; stresses that a model
+  /// increments decay anew in each step.
   double relaxationTime = 1e-99;
 
   bool acts() const { return algorithm != Algorithm::none; }

@@ -2,7 +2,7 @@
 
 #include "components/mpm/solid/explicit/interpolators.hpp"
 
-// For the modules of interpolators.
+// The registration of shape functions by the modules of interpolators.
 
 namespace tushar::mpm::solid {
 

@@ -6,7 +6,7 @@ namespace tushar::mpm::solid {
 
 /// The optional particle variables of a scene, which depend on its materials.
 struct Keeps {
-  KeptSizes sizes;  ///< how p.size or p.domain is stored: particles have different initial sizes
+  KeptSizes sizes;  ///< how p.size or p.domain is stored, if particles have different initial sizes
   /// Whether p.stress and p.volume are stored: some stress is not a function of F alone.
   bool stress = false;
   bool temperature = false;        ///< whether p.temperature is stored: some stress depends on it

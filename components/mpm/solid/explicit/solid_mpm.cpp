@@ -4,7 +4,7 @@
 #include "components/mpm/solid/explicit/tasks/prescribe_motion.hpp"
 #include "components/mpm/solid/explicit/tasks/transmit_force.hpp"
 
-// The schedule of SolidMpm, which reads as the method.
+// The schedule of SolidMpm, which can be read as the method.
 
 namespace tushar::mpm::solid {
 
@@ -71,7 +71,8 @@ void SolidMpm<D>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stre
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionInterpolated", Moment::start, g::record);
 }
 
-/// At nodes where bodies meet, by the masses in `record`; once in a step.
+/// Adds the task that computes the surfaces of bodies at nodes where, by the masses in `record`, bodies meet. Called
+/// once per step.
 template <int D>
 void SolidMpm<D>::scheduleComputeSurface(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
   if (!hasFriction()) return;
@@ -162,8 +163,8 @@ void SolidMpm<D>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
                       record, particles, computes(p::affineMoment));
 }
 
-/// Adds the tasks that transfer to the nodes the velocity from which stresses are computed, if it differs from that of
-/// the motion; `moving` reads the particles' velocity.
+/// Adds the tasks that interpolate velocities to the nodes once more. They are needed if stresses are not computed from
+/// the velocity with which particles move. `moving` reads the particles' velocity.
 template <int D>
 void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = shapes_.reach;

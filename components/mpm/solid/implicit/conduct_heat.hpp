@@ -62,7 +62,7 @@ class NodalHeat {
   struct Point {
     const Material& material;
     double mass, temperature, volume;  ///< A in grad S = A^T grad_0 S: F^-1, or I if the grid is reset
-    Matrix3 carried;                   ///< A in grad S = A^T grad_0 S: F^-1, or I where the grid is reset
+    Matrix3 carried;                   ///< A in grad S = A^T grad_0 S: F^-1, or I if the grid is reset
   };
 
   template <class Visit>

@@ -76,8 +76,8 @@ void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagno
   const auto conducts = element.child("DoImplicitHeatConduction");
   if (given && given->text() == "false" && conducts && conducts->text() == "true")
     diagnostics.note(*given,
-                     "heat is conducted from the temperatures of the particles in each step, not from those in the "
-                     "first step, as in Uintah");
+                     "in each step, heat is conducted from the current temperatures of the particles; in Uintah, from "
+                     "those in the first step");
 }
 
 /// Declares tags for behaviour that is always enabled in Tushar.

@@ -11,7 +11,7 @@ struct ImplicitMethod {
   bool dynamic = true;
   /// Whether the grid is reset after each step; otherwise it moves with the solid, and shape functions do not change.
   bool resetsGrid = true;
-  /// F-bar: whether the particles of a cell share one change of volume, which prevents locking
+  /// F-bar: whether the particles of a cell share one change of volume, which prevents locking.
   bool sharesVolume = false;
   solvers::NewtonSettings newton;
   bool conductsHeat = false;

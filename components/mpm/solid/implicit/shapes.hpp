@@ -6,7 +6,7 @@
 #include "components/mpm/solid/implicit/method.hpp"
 #include "components/mpm/solid/tasks/shaped_tasks.hpp"
 
-// Shape functions as implicit steps use them: the solves see only the nodes that a particle touches, so that they are
+// Shape functions as implicit steps use them: the solves read only the nodes that a particle touches, so that they are
 // compiled only once for each dimension.
 
 namespace tushar::mpm::solid::implicit {

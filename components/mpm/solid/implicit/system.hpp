@@ -49,8 +49,9 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// contributes its stress at a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
-  /// The acceleration of each node at the start of a run: (f + m g - sum_p V_p sigma_p grad S) / m, 0 if prescribed,
-  /// m/s^2. Newmark's rule needs it: a load that acts from the start would otherwise lose half a step of its momentum.
+  /// The acceleration of each node at the start of a run: (f + m g - sum_p V_p sigma_p grad S) / m, 0 if prescribed
+  /// [m/s^2]. Newmark's rule needs it: a load that acts from the start would otherwise lose half a step of its
+  /// momentum.
   std::vector<double> startingAcceleration();
 
   /// The forces that enforce the prescribed displacements, at the nodes of this rank [N]; 0 along free axes.
@@ -68,7 +69,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     for (const Run& run : runs_)
       visit(sources_[run.source], PointRun{&sources_[run.source].group, run.from, run.count});
   }
-  // All of touches_ * D rows or columns.
+  // Largest number of rows or columns, touches_ * D.
   static constexpr int most_ = static_cast<int>(mostTouches<D>) * D;
   using Strain = Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, most_>;
   using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_, most_>;
@@ -80,7 +81,8 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     double rigidity = 0;          ///< sum of the forces that particles would exert at a strain of 1 [N]
     /// Velocity [m/s], acceleration [m/s^2], force [N].
     Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();
-    double support = 0;  ///< stiffness [N/m] of a weak spring that pulls the node to where its velocity takes it
+    double support =
+        0;  ///< stiffness [N/m] of a weak spring that pulls the node to the position that follows from its velocity
   };
   static constexpr int sums_ = 3 + 3 * D;
 

@@ -63,7 +63,7 @@ void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Mat
     }
 }
 
-/// The row of ln det F: its change for a unit displacement of each node near a point [1/m].
+/// The change of ln det F for a unit displacement of each node near a point [1/m].
 template <int D>
 auto ImplicitSystem<D>::volumeRow(std::size_t point) const -> Rows {
   const Matrix3 inverse = (Matrix3::Identity() + states_.gradient[point]).inverse().transpose();
@@ -130,7 +130,7 @@ void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& ma
   if (shares) addSharedStiffness(run, forces, matrix);
 }
 
-/// Adds the stiffness of the points of a run against their common change of volume.
+/// Adds the stiffness with which the points of a run resist a common change of volume.
 template <int D>
 void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces,
                                            solvers::Matrix& matrix) const {

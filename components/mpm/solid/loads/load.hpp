@@ -48,7 +48,8 @@ struct SurfaceLoad {
   Location where;        ///< location of its tag in the scene
   double particles = 0;  ///< sum of the weights of the particles at the surface, computed by countParticles
   bool outwardNormal =
-      /// For pressure on faces of particles: whether it acts on the face towards normalAt, not on the opposite face.
+      /// For pressure on faces of particles: whether it acts on the face towards normalAt, rather than on the opposite
+      /// face.
       true;
 
   /// Whether the load acts on a particle of a body: it does if the particle lies along the surface of the load and at

@@ -51,7 +51,7 @@ void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagn
   const auto shapes = object ? object->children() : std::vector<Element>{};
   if (object) input::refuseAttributes(*object, {}, diagnostics);
   if (shapes.size() != 1)
-    return diagnostics.error(parent, "needs one <geom_object> with one shape, which says where the load acts");
+    return diagnostics.error(parent, "needs one <geom_object> with one shape, which specifies where the load acts");
   if (shapes[0].name() == "box" && shapes[0].child("min")) {
     load.surface = boxSchema().read(shapes[0], diagnostics);
     return;

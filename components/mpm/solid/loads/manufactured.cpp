@@ -13,8 +13,8 @@ constexpr double pi = std::numbers::pi;
 
 double barSpeed(const Elastic& e) { return std::sqrt(e.young / e.density); }
 
-/// The motion u_i = A sin(pi X_i) sin(pi (phi_i + c t)): each axis is independent; the sides of the unit cube do not
-/// move.
+/// The motion u_i = A sin(pi X_i) sin(pi (phi_i + c t)). The axes are independent of one another, and the sides of the
+/// unit cube do not move.
 class AxisAligned : public Manufactured {
  public:
   double farthestAtStart() const override { return amplitude; }

@@ -12,14 +12,14 @@ namespace tushar::mpm::solid {
 struct Elastic {
   double lambda, shear;  ///< Lamé's constants [Pa]
   double young;          ///< Young's modulus [Pa]
-  double density;        ///< at the start [kg/m^3]
+  double density;        ///< initial density [kg/m^3]
 };
 
 /// The constants of a material with the model cnh_mms.
 Elastic elasticOf(const Material& material);
 
-/// A manufactured solution: a prescribed motion, and the body force with which a neo-Hookean solid moves in this way: a
-/// reference for errors. Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
+/// A manufactured solution, as a reference for errors: a prescribed motion, and the body force under which a
+/// neo-Hookean solid moves in this way. Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
 class Manufactured {
  public:
   virtual ~Manufactured() = default;

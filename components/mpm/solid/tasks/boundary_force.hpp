@@ -7,8 +7,8 @@
 namespace tushar::mpm::solid {
 
 /// Measures the force of a body on a side of the grid, - sum_i f_i over the nodes of the side, and the area of the side
-/// that the body covers, 2 sum_i V_i / h. showForce computes f_i and V_i. Sides across axes that the grid does not use
-/// have no nodes.
+/// that the body covers, 2 sum_i V_i / h. showForce computes f_i and V_i. Sides normal to axes that the grid does not
+/// use have no nodes.
 template <int D>
 void measureBoundary(const Patch& patch, const Material&, int face, NodeView<const Vec<D>> force,
                      NodeView<const double> volume, VectorSum& total, Sum& area) {
@@ -23,7 +23,7 @@ void measureBoundary(const Patch& patch, const Material&, int face, NodeView<con
   }
 }
 
-/// Measures force and area on a side across an axis that the grid does not use; the stress of every particle acts on
+/// Measures force and area on a side normal to an axis that the grid does not use; the stress of every particle acts on
 /// this side.
 inline void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
                                 ParticleView<const Matrix3> stress, VectorSum& total, Sum& area) {

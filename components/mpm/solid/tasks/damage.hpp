@@ -87,7 +87,7 @@ inline bool isUnstable(const Material& material, int p, int stateSize, double dt
                                     &(*d.state)[0] + p * stateSize);
 }
 
-/// Computes damage at the end of the step, and the stress that damaged and failed particles still support. Uintah's
+/// Computes damage at the end of the step, and the stress that damaged and failed particles still support: Uintah's
 /// computeBasicDamage and updateErosionParameter.
 inline void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,
                           const DamageGrowth& d) {

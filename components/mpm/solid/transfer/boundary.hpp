@@ -4,8 +4,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Ensures that nothing moves through a symmetry plane, and that no force acts across it, on the nodes of the view's
-/// box: both vectors of a record have no normal component there, and the nodes outside mirror those inside.
+/// On the nodes of the view's box, ensures that nothing moves through a symmetry plane and that no force acts normal to
+/// it: on the plane, both vectors of a record have no normal component, and the nodes outside mirror those inside.
 template <int D>
 void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record);
 

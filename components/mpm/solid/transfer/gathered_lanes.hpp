@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The velocities that several particles of a cell interpolate from the nodes, one particle in each lane, bitwise the
-/// same as with Gathered.
+/// The velocities that several particles of a cell interpolate from the nodes, one particle in each lane; bitwise equal
+/// to the results of Gathered.
 template <int D>
 struct GatheredLanes {
   std::array<Lanes, D> after, before;            ///< sum_i S_i v*_i and sum_i S_i v_i [m/s]

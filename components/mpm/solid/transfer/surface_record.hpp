@@ -40,16 +40,17 @@ struct alignas(64) SurfaceRecord {
   }
 };
 
-/// What a particle adds to the surface of its body.
+/// The contribution of a particle to the surface of its body.
 template <int D>
 class SurfaceShare {
  public:
-  /// Of a particle at x, m, with its mass, kg, volume, m^3, and stress, Pa; mass gradients are those of `weight`.
+  /// The contribution of a particle at x [m] with its mass [kg], volume [m^3] and stress [Pa]; mass gradients are those
+  /// of `weight`.
   SurfaceShare(const Vec<D>& x, double mass, double volume, double weight, const Matrix3& stress)
       : mass_(mass), gradient_{weight, weight, weight, volume}, position_(quadOf<D>(x, stress(0, 0))) {
     std::memcpy(&stress_, stress.data() + 1, sizeof(stress_));
   }
-  /// Adds it to a node with the value s of its shape function and its gradient, 1/m.
+  /// Adds the contribution to a node, with the value s of the node's shape function and its gradient [1/m].
   [[gnu::always_inline]] void addTo(SurfaceRecord& record, double s, const Vec<D>& gradient) const {
     const double part = s * mass_;
     record.quads[0] += gradient_ * quadOf<D>(gradient, s);
@@ -61,7 +62,7 @@ class SurfaceShare {
  private:
   double mass_;
   Quad gradient_, position_;
-  std::array<Quad, 2> stress_;  ///< without its first number
+  std::array<Quad, 2> stress_;  ///< the stress without its first number
 };
 
 }  // namespace tushar::mpm::solid

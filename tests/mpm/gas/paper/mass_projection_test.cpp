@@ -77,7 +77,7 @@ TEST(MassProjection, IsWhatOneComputesByHandForALine) {
   EXPECT_NEAR(cell.bound[1], std::sqrt(1.0 / 12 * 13 / 3), 1e-15);
 }
 
-// The worst that can be: the particle that has the gradient of S_i for its own, at a face.
+// The worst case: the only particle of the cell is at a face.
 TEST(MassProjection, ComesNearItsBoundWhereParticlesGather) {
   const Row row({{1e-9}}, one);
 

@@ -10,7 +10,8 @@ constexpr double roundOff = 1e-12;  ///< some hundred operations, each exact to 
 
 double equivalent(const Matrix3& stress) { return std::sqrt(1.5) * deviator(stress).norm(); }
 
-/// The same step seen from a frame with rotation `before` and then another: the stress must follow the second.
+/// The same step seen from a frame that is rotated by `before`, and then further: the stress must follow the second
+/// rotation.
 template <class M>
 void expectObjective(MaterialPoint<M> point, const Matrix3& f, void (*turnState)(typename M::State&, const Matrix3&)) {
   const Matrix3 before = rotation(0.7), after = rotation(-1.9);
@@ -91,7 +92,8 @@ void expectEnergyOfSmallStrain(const M& model, double bulkModulus, double shearM
       (shearModulus * strain.squaredNorm() + (bulkModulus / 2 - shearModulus / 3) * strain.trace() * strain.trace());
   for (const double angle : {0.0, 0.7}) {
     const MaterialPoint<M> point{model};
-    // The next order of the strain, and rounding of F over it: 1e-7 and 1e-9, times factors of the order of 10.
+    // The next order of the strain, 1e-7, and the rounding of F divided by the strain, 1e-9, times factors of the order
+    // of 10.
     EXPECT_NEAR(point.energy(rotation(angle) * (Matrix3::Identity() + size * strain)) / linear, 1, 1e-5) << angle;
   }
 }
@@ -112,7 +114,7 @@ TEST(Hyperelasticity, KeepsTheEnergyOfStrainsThatAreHardlyThere) {
 
 namespace {
 
-/// The numbers that a model finds for particles without stored stresses: J sigma, wave speeds and energies.
+/// The results of a model for particles without stored stresses: J sigma, wave speeds and energies.
 struct Found {
   std::vector<Matrix3> stress;
   std::vector<double> waveSpeed, energy;
@@ -341,7 +343,7 @@ TEST(IdealGas, ExpandsAlongItsAdiabat) {
     temperature += gas.temperatureChange({next, f, Matrix3::Zero(), 1, temperature}, Matrix3::Zero(), {});
     f = next;
   }
-  // Steps of first order: 0.4 1.4 / 2 times the sum of the squares of the growths, 0.5/steps.
+  // The error of steps of first order: 0.4 1.4 / 2 times the sum of the squared growths, 0.5/steps.
   const double expected = 300 * std::pow(2.0, -0.4);
   EXPECT_NEAR(temperature, expected, 0.28 * 0.6 / steps * expected);
 }

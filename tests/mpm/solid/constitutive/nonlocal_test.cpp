@@ -37,7 +37,7 @@ TEST(NonlocalDruckerPrager, ReturnsToItsApexFromStrongTension) {
   EXPECT_LT((point.oldStress - 0.1 / (3 * 0.2) * Matrix3::Identity()).norm(), roundOff);
 }
 
-/// After a return to the apex the strain is plastic except for the apex's own, and hardens like any other.
+/// After a return to the apex, the strain beyond that of the apex is plastic, and hardens like any other.
 TEST(NonlocalDruckerPrager, HardensAndSoftensAtItsApex) {
   for (const double hardening : {0.5, -0.5}) {
     NonlocalDruckerPrager model = soil();

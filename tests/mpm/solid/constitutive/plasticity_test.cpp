@@ -5,7 +5,7 @@
 #include "tests/mpm/solid/constitutive/example_models.hpp"
 #include "tests/mpm/solid/constitutive/material_point.hpp"
 
-// What metals of elastic_plastic are made of: yield stresses and shear moduli.
+// Yield stresses and shear moduli of the metals of elastic_plastic.
 
 namespace tushar::mpm::solid::testing {
 namespace {

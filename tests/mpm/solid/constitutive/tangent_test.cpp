@@ -6,8 +6,8 @@
 namespace tushar::mpm::solid::testing {
 namespace {
 
-/// The differences are of fourth order with steps of 1e-3 of a smooth function, 1e-12 of it in theory, of which
-/// round-off leaves 1e-10; 1e-7 is asked.
+/// The differences are of fourth order, with steps of 1e-3 of a smooth function: their error is 1e-12 in theory, and
+/// 1e-10 with round-off; 1e-7 is required.
 template <class M>
 void expectConsistentTangent(const MaterialPoint<M>& point, const Matrix3& f) {
   const Matrix9 tangent = point.model.nominalTangent(point.step(f), point.oldStress, point.oldState);

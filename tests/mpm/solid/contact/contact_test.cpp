@@ -12,7 +12,7 @@
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
 #include "tests/support/levels.hpp"
 
-// What contacts do at single nodes, on plain fields.
+// Contact at single nodes, on plain fields.
 
 namespace tushar::mpm::solid {
 namespace {
@@ -63,7 +63,7 @@ struct TwoBodies {
     for (const auto& [place, value] : numbers) at(surfaces[body]).numbers()[place] = value;
   }
   void setGradient(int body, const Vec<2>& gradient) { set(body, {{0, gradient[0]}, {1, gradient[1]}}); }
-  /// Presses along y.
+  /// A pressure along y.
   void press(int body) { set(body, {{7 + 3 + 1, -1}}); }
   void move(int body, const Vec<2>& v) { setLanes<2>(at(records[body]), lane::velocity, v); }
   Vec<2> velocity(int body) { return lanes<2>(at(records[body]), lane::velocity); }

@@ -68,7 +68,7 @@ TEST(JohnsonCookDamage, StartsSpreadAboutItsMeanWhereThatIsAskedFor) {
     squares += (damage - 0.2) * (damage - 0.2);
   }
 
-  // Both scatter by 0.03 / (count or twice that)^(1/2) < 2.2e-4; five times that.
+  // Both scatter by 0.03 / (count or twice that)^(1/2) < 2.2e-4; the tolerance is five times that.
   EXPECT_NEAR(sum / count, 0.2, 1.1e-3);
   EXPECT_NEAR(std::sqrt(squares / count), 0.03, 1.1e-3);
 }
@@ -170,7 +170,8 @@ TEST(ThresholdDamage, DrawsThresholdsByTheIdOfAParticleWithTheMeanThatIsAskedFor
     const int count = 20000;
     double sum = 0;
     for (ParticleId id = 0; id < count; ++id) sum += model.initial(1, id << 16).threshold;
-    // The mean of so many scatters by at most 5.3/count^(1/2) = 0.037 (Weibull's with modulus 2); four times that.
+    // The mean of `count` values scatters by at most 5.3/count^(1/2) = 0.037 (Weibull's distribution with modulus 2);
+    // the tolerance is four times that.
     EXPECT_NEAR(sum / count, 10, 0.15);
     EXPECT_EQ(model.initial(1, 77).threshold, model.initial(1, 77).threshold);
     EXPECT_NE(model.initial(1, 77).threshold, model.initial(1, 78).threshold);

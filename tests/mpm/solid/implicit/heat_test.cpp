@@ -8,9 +8,9 @@ TEST(ImplicitHeat, SpreadsEvenlyInOneLongStepAndKeepsTheHeat) {
   Block<LinearShape<2>> block(modelOf(rubber()), {{6, 2, 1}});
   for (std::size_t p = 0; p < block.x().size(); ++p) block.temperature()[p] = block.x()[p][0] < 3 ? 400 : 300;
 
-  // The slowest part decays at k pi²/(rho c L²) = 2.7e-4 /s: 50 K / 2.7e6 are left of it.
+  // The slowest part decays at k pi²/(rho c L²) = 2.7e-4 /s: 50 K / 2.7e6 of it remain.
   for (const Vec<2>& x : block.x()) EXPECT_NEAR(block.temperatureAfter(1e10, x), 350, 1e-4);
-  // In a shorter step heat goes from the warm half to the cold one, and none is lost.
+  // In a shorter step, heat flows from the warm half to the cold one, and none is lost.
   double sum = 0;
   for (const Vec<2>& x : block.x()) sum += block.temperatureAfter(1000, x);
   EXPECT_NEAR(sum / double(block.x().size()), 350, 1e-7);

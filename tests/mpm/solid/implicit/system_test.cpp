@@ -107,7 +107,7 @@ TEST(ImplicitSystem, HasTheTangentOfItsResidualWhereTheGridGoesAlong) {
 }
 
 TEST(ImplicitSystem, StretchesWithTheGridByTheDisplacementOfTheNodes) {
-  // Where the grid has gone along with a stretch of 1.3, u = 0.2 X adds 0.2 to it: P is that of a stretch of 1.5.
+  // If the grid has followed a stretch of 1.3, u = 0.2 X adds 0.2 to it: P is that of a stretch of 1.5.
   Block<LinearShape<1>> block(modelOf(rubber()), {{1, 1, 1}}, 1.3);
   block.resetsGrid = false;
   ImplicitSystem<1> system = block.system(false);
@@ -131,7 +131,7 @@ TEST(ImplicitSystem, HasTheTangentOfItsResidualWhereParticlesAreCompressedAsOne)
   }
 }
 
-/// sum_i r_i S_i/r, the hoop strain of u_r = r, at points all over a cell that does not lie at the axis.
+/// sum_i r_i S_i/r, the hoop strain of u_r = r, at points throughout a cell that does not touch the axis.
 template <class Shape>
 void expectHoopStrainOfExpansion() {
   const Level level(domainAround(Index3{{4, 4, 0}}));
@@ -196,7 +196,7 @@ TEST(ImplicitSystem, BringsABarIntoEquilibriumWithItsLoad) {
 
   const double f = 1 + system.displacement(1, u)[0];
   const Matrix3 kirchhoff = rubber().kirchhoffStress(Matrix3(Vec3(f, 1, 1).asDiagonal()));
-  // The particle at 3/4 hands 3/4 of its load to the node that is free.
+  // The particle at 3/4 gives 3/4 of its load to the free node.
   EXPECT_NEAR(kirchhoff(0, 0) / f, 0.75 * load, 1e-6 * load);
 }
 

@@ -10,7 +10,7 @@
 
 #include "components/mpm/solid/explicit/tasks/update_particles.hpp"
 
-// A deformation that a body is driven through: its rate, and the files that say it.
+// A prescribed deformation of a body: its rate, and the files that describe it.
 
 namespace tushar::mpm::solid {
 namespace {

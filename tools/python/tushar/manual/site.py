@@ -145,7 +145,7 @@ class Site:
             methods, self.version)
         self.files["tutorials/index.html"] = pages_other.list_page(
             "tutorials/index.html", "Tutorials",
-            "Each takes a few minutes. A test runs their commands, except where a note gives a reason.", tutorials,
+            "Each takes a few minutes. A test runs the commands, except where a note gives a reason.", tutorials,
             self.version)
         self.assets[HOME_PICTURE] = "pictures/" + HOME_PICTURE.replace("/", "-")
         counts = {"tags": sum(len(page.items) for page in self.reference.pages), "scenes": len(self.scenes),

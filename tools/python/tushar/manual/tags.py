@@ -63,7 +63,7 @@ class Section:
 
 def tags_of(sus):
     """All sections that the program `sus` describes. A component with two forms of scenes yields two sections."""
-    sections = [Section("scene", "scene", "what all scenes share", [])]
+    sections = [Section("scene", "scene", "sections that all scenes share", [])]
     sections += [Section(name, kind, sentence, []) for kind, name, sentence in _listed(_output(sus, "--list"))]
     described = []
     for section in sections:

@@ -35,8 +35,8 @@ class Scene:
 
 @dataclasses.dataclass(frozen=True)
 class Settings:
-    """How scenes are run. Each has `limit` [s] of wall time and `work` [s] of processor time; `check`: they are read,
-    and make no step."""
+    """How scenes are run. Each may take `limit` [s] of wall time and `work` [s] of processor time; with `check`, scenes
+    are only read."""
     sus: str
     limit: float
     work: float = math.inf

@@ -43,8 +43,7 @@ def sets_of(case, method):
 
 class Gallery:
     """Runs of cases by methods; kept in a file, so that an interrupted gallery continues where it stopped. Runs of
-    another program, and
-    of scenes that have changed since, are forgotten."""
+    another program, and of scenes that have changed since, are forgotten."""
 
     def __init__(self, folder, sus):
         self.folder, self.sus = pathlib.Path(folder).resolve(), pathlib.Path(sus).resolve()

@@ -59,11 +59,11 @@ double least(double low, double high, const F& f) {
   return 0.5 * (low + high);
 }
 
-/// The point of a yield surface nearest to a stress outside it, in the space of z = I1 / sqrt 3 and
-/// r = beta sqrt(3/2 K/G) sqrt(2 J2): for beta = 1 the return of associated plasticity with the moduli K and G. Homel,
-/// Guilkey & Brannon, Comput. Mech. 56 (2015) 565. They search from within by bisection and rotation. Here, the
-/// distance to the sections of the surface across the axis is minimised by bisection of its derivative along the axis;
-/// the distance is convex because the surface is.
+/// The point of a yield surface nearest to a stress outside it, in the space of z = I1 / sqrt 3 and r = beta sqrt(3/2
+/// K/G) sqrt(2 J2): for beta = 1 the return of associated plasticity with the moduli K and G. Homel, Guilkey & Brannon,
+/// Comput. Mech. 56 (2015) 565. The source searches from within the surface by bisection and rotation. Here, the
+/// distance to the sections of the surface normal to the axis is minimised by bisection of its derivative along the
+/// axis; the distance is convex because the surface is.
 class ClosestPoint {
  public:
   ClosestPoint(const Constants& c, const Moduli& moduli, const YieldSurface& surface)

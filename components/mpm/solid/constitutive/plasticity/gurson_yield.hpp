@@ -74,7 +74,7 @@ inline constexpr double greatestPorosity = 0.999;
 template <class YieldStress, class MeanStress>
 class GursonReturn {
  public:
-  /// The state of the point after the step.
+  /// The state of the material point after the step.
   struct Result {
     double plasticStrain = 0;  ///< increment of the plastic strain of the metal [1]
     double dilatation = 0;     ///< increment of the plastic dilatation [1]

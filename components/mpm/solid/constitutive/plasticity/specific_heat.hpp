@@ -58,8 +58,7 @@ struct CopperHeat {
 };
 
 /// Specific heat A + B t + C |t|^-n on either side of the transition at T_c, t = T/T_c - 1: Lederman, Salamon &
-/// Shacklette, Phys.
-/// Rev. B 9 (1974) 2981; the constants are of 4340 steel.
+/// Shacklette, Phys. Rev. B 9 (1974) 2981; the default constants are those of 4340 steel.
 struct SteelHeat {
   static constexpr std::string_view name = "steel_Cp";
   double transition = 1040;                                ///< transition T_c [K]
@@ -69,7 +68,8 @@ struct SteelHeat {
   static const input::Schema<SteelHeat>& schema() {
     using Self = SteelHeat;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("specific_heat_model", "For steel, with the peak at the transition of iron.")
+        input::Schema<Self>("specific_heat_model",
+                            "For steel: a formula with a peak at the transition temperature of iron.")
             .value("T_transition", &Self::transition, 1040, "K", "T_c, where t = T/T_c - 1 is 0", input::positive())
             .value("A_LowT", &Self::a0, 190.14, "J/(kg K)", "constant part below the transition")
             .value("B_LowT", &Self::b0, 273.75, "J/(kg K)", "factor of t below the transition")
@@ -90,9 +90,9 @@ struct SteelHeat {
 };
 
 /// The specific heat c = u³ / (c_0 + c_1 u + c_2 u² + c_3 u³) + beta² T K / rho, u = T/theta in K, theta = eta^a exp(b
-/// (1 - 1/eta)), eta = rho/rho_0: theta is a number, Debye's temperature over that at rho_0, as in Uintah's code.
-/// Sewell & Menikoff, Shock Compression of Condensed Matter (2003) 157, equations 5 to 7, and the difference of c_p and
-/// c_v. (Uintah's exponent is b (eta - 1), which is the same at small compression.)
+/// (1 - 1/eta)), eta = rho/rho_0: theta is dimensionless, as in Uintah's code: the ratio of Debye's temperature to that
+/// at rho_0. Sewell & Menikoff, Shock Compression of Condensed Matter (2003) 157, equations 5 to 7, and the difference
+/// of c_p and c_v. (Uintah's exponent is b (eta - 1), which is the same at small compression.)
 struct CubicHeat {
   static constexpr std::string_view name = "cubic_Cp";
   double a = 1, b = 1;                    ///< constants of Grüneisen's coefficient a + b/eta [1]

@@ -14,8 +14,8 @@ namespace tushar::mpm::solid {
 ///
 ///     e' = A exp(-Q/(R_u T)) <(X - R)/K>^N,   de_ij/dt = e' n_ij,
 ///     dB_ij/dt = A1 (2/3 de_ij/dt - B_ij/B' e'),   dR/dt = A3 (1 - R/R') e',   dK/dt = A5 (1 - K/K') e',
-///     B' = B0 (e'/e0)^(1/n),  R' = R0 (e'/e0)^(1/m),  K' = (S0 (e'/e0)^(1/N) - R' - B')/(e'/(A exp(-Q/(R_u
-///     T))))^(1/N).
+///     B' = B0 (e'/e0)^(1/n),  R' = R0 (e'/e0)^(1/m),
+///     K' = (S0 (e'/e0)^(1/N) - R' - B')/(e'/(A exp(-Q/(R_u T))))^(1/N).
 ///
 /// R and K do not fall, as in Uintah.
 struct SuvicI {

@@ -63,7 +63,7 @@ class MeetingPlaces {
       });
     return any;
   }
-  /// Calls `visit(node)` for each, where the node has three indices.
+  /// Calls `visit(node)` for each of these nodes, given by three indices.
   template <class Visit>
   void forEachPlace(Visit&& visit) const {
     const std::uint8_t* count = bodies_.data();
@@ -81,8 +81,8 @@ class MeetingPlaces {
 template <int D>
 void mirrorSurface(const Patch& patch, const Material& material, NodeView<SurfaceRecord> surface);
 
-/// Adds the particles of a material around places where bodies meet. Where axisymmetric, the gradient is that of the
-/// density, as in Uintah: mass grows with the radius, and would tilt the normal.
+/// Adds the particles of a material around places where bodies meet. In axisymmetric scenes, the gradient is that of
+/// the density, as in Uintah, because the mass grows with the radius and would tilt the normal.
 template <class Shape, int D = Shape::dimension>
 void addSurface(const Patch& patch, const Material& material, const Vec3& commonSize, const MeetingPlaces<D>& places,
                 const SurfaceSources<D>& u) {
@@ -109,7 +109,8 @@ void addSurface(const Patch& patch, const Material& material, const Vec3& common
   mirrorSurface<D>(patch, material, u.surface);
 }
 
-/// The surfaces of bodies for friction, at the nodes of the patch where several have mass; undefined at others.
+/// The surfaces of bodies for friction, at the nodes of the patch where several bodies have mass; undefined at other
+/// nodes.
 template <class Shape, int D = Shape::dimension>
 void computeSurface(const Patch& patch, const std::vector<Material>& materials, const Vec3& commonSize,
                     const std::vector<NodeView<const NodeRecord>>& records, const std::vector<SurfaceSources<D>>& of) {

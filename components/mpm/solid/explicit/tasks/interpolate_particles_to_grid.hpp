@@ -83,8 +83,8 @@ class Scatter {
       addParticles<false>(cell, range.first, range.size(), moments.data() + (range.first - cells.first()));
     });
   }
-  /// Adds those particles of a ghost cell that contribute to the patch's own nodes. Of each group of particles, the
-  /// stresses of all from the first to the last of these are computed, as several cost as much as one.
+  /// Adds those particles of a ghost cell that contribute to the patch's own nodes. In each group of particles, the
+  /// stresses of all particles from the first to the last of these are computed, because several cost as much as one.
   void addGhostCell(const Index<D>& cell, const data::ParticleRange& range) const {
     if (hasOwnNode(cell)) {
       for (int at = range.first; at < range.last; at += stressGroup)
@@ -260,10 +260,9 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
   if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);  // sides act only on these
 }
 
-/// Computes m_i = sum_p S_i m_p, v_i = sum_p S_i m_p v_p / m_i,
-/// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i /
-/// r. The values are complete on those of the patch's own nodes that particles touch; on other nodes they are 0 if
-/// `clearsAll`, otherwise undefined.
+/// Computes m_i = sum_p S_i m_p, v_i = sum_p S_i m_p v_p / m_i, f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i;
+/// in axisymmetric scenes, the hoop stress pulls inwards with S_i / r. The values are complete on those of the patch's
+/// own nodes that particles touch; on other nodes they are 0 if `clearsAll`, otherwise undefined.
 template <class Shape, int D = Shape::dimension>
 void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
                                 const MomentumSources<D>& from, const ForceSources<D>& forces,

@@ -14,7 +14,7 @@ namespace tushar::mpm::solid {
 // velocity of nodes act along this velocity; the mean of the stresses at the start and at the end of the step acts
 // along the change of F. The rest of the change of kinetic energy is dissipated by the method itself: by FLIP to first
 // order in dt (Bardenhagen, J. Comput. Phys. 180 (2002) 383); by APIC, PIC and XPIC through the viscosity of their
-// transfer; by contact, when two bodies come to move as one.
+// transfer; by contact, when two bodies begin to move as one.
 
 /// Indices of the components of p.work, as in total::work.
 namespace works {

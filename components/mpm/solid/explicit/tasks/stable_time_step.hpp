@@ -67,7 +67,7 @@ void computeInitialTimeStep(const Patch& patch, const Material& material, Partic
   });
 }
 
-/// Limits the time step to that for which the last one has found the state to be stable.
+/// Limits the time step to the stable time step that the previous step has computed for this state.
 inline void limitByWaves(const Patch&, double stableTimeStep, Minimum& dt) { dt.add(stableTimeStep, "wave speed"); }
 
 }  // namespace tushar::mpm::solid

@@ -11,7 +11,7 @@ template <int D>
 struct StateUpdate {
   NodeView<const NodeRecord> record;  ///< record with the velocity that changes F
 
-  // At the start of the step.
+  // Values at the start of the step.
   ParticleView<const Vec<D>> x;
   Sizes<D> size;
   ParticleView<const Vec<D>> velocity;
@@ -22,15 +22,15 @@ struct StateUpdate {
   OptionalView<const double> oldState;
   OptionalView<const int> localized;
 
-  // At its end.
+  // Values at the end of the step.
   ParticleView<Matrix3> deformation;
   OptionalView<double> volume;
   OptionalView<Matrix3> stress;
   OptionalView<double> state, viscosity, strainEnergy, temperatureChange;
   OptionalView<Matrix3> velocityGradient;
   Minimum& stableTimeStep;
-  std::optional<CellView<double>> stableTimeSteps;  ///< by cell
-  OptionalView<Vec<D>> newX;                        ///< if particles can be removed
+  std::optional<CellView<double>> stableTimeSteps;  ///< stable time step of each cell
+  OptionalView<Vec<D>> newX;                        ///< new positions, if particles can be removed
 
   int stateSize = 0;  ///< number of values per particle in `state`
 

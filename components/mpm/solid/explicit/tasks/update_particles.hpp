@@ -27,7 +27,7 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
-/// Computes (I + L dt) F of `count` consecutive particles, with the same bits as for single particles.
+/// Computes (I + L dt) F of `count` consecutive particles, bitwise equal to the results for single particles.
 [[gnu::always_inline]] inline void deform(const Matrix3* f, const TensorOf<Lanes>& velocityGradient, double dt,
                                           int count, Matrix3* result) {
   const TensorOf<Lanes> before = lanesOf(f, count);
@@ -98,8 +98,8 @@ template <int D>
   if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
 }
 
-/// Computes L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric), F_p = (I + L_p dt) F_p, in
-/// substeps or, if the scene requests it, by terms of the series of exp(L_p dt).
+/// Computes L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r in axisymmetric scenes), F_p = (I + L_p dt)
+/// F_p, in substeps or, if the scene requests it, by terms of the series of exp(L_p dt).
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
@@ -174,8 +174,9 @@ template <class Shape, class Move, int D = Shape::dimension>
 }
 
 /// Updates F, the stress and related quantities of the patch's own particles to the end of the step, and computes the
-/// stable time step. Calls `move(p, count, sums)` for what particles from p on gather from the grid: one,
-/// or several in lanes. Throws NumericalError where a wave has no speed. The step starts at `time`, s.
+/// stable time step. Calls `move(p, count, sums)` for `count` particles from p on, with the values that they gather
+/// from the grid: for one particle, or for several in lanes. Throws NumericalError if a wave speed is undefined. The
+/// step starts at `time` [s].
 template <class Shape, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                      Volumes volumes, const StateUpdate<D>& u, Move&& move) {

@@ -21,8 +21,8 @@ struct MovedParticles {
   Matrix3* add(const Index<D>& cell, const data::ParticleRange& range);
 };
 
-/// Updates the stress of particles that have moved, and the stable time step. Removes those that the
-/// step turns inside out or throws out of `space`, or throws NumericalError. No particle is left in `moved`.
+/// Updates the stress of particles that have moved, and the stable time step. Removes those that the step turns inside
+/// out or throws out of `space`, or throws NumericalError. Afterwards `moved` is empty.
 template <int D>
 void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
                     const StateUpdate<D>& u, const CrossingRate<D>& none, const BetweenPlanes<D>& space,
