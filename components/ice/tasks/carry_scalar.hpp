@@ -2,6 +2,7 @@
 
 #include "components/euler/boundary.hpp"
 #include "components/euler/face_masses.hpp"
+#include "components/euler/tasks/diagnose.hpp"
 #include "components/ice/scalar.hpp"
 #include "core/base/limiters.hpp"
 
