@@ -18,7 +18,7 @@ class WideSum {
   WideSum(const WideSum&) = delete;
   WideSum& operator=(const WideSum&) = delete;
   ~WideSum() {
-    std::fill(waiting_.begin() + count_, waiting_.end(), 0.0);
+    while (count_ % width != 0) waiting_[count_++] = 0;
     addWaiting();
     for (std::size_t r = 0; r < registers; ++r)
       for (int lane = 0; lane < 4; ++lane) sum_->merge({value_[r][lane], error_[r][lane], rest_[r][lane]});
@@ -42,12 +42,12 @@ class WideSum {
   }
 
  private:
-  static constexpr std::size_t registers = 2;
+  static constexpr std::size_t registers = 2, width = 4 * registers;
   using Lanes = std::array<Quad, registers>;
 
   void addWaiting() {
     Lanes value = value_, error = error_, rest = rest_;  // copies, which the loop keeps in registers
-    for (std::size_t k = 0; k < waiting_.size(); k += 4 * registers)
+    for (std::size_t k = 0; k < count_; k += width)
       for (std::size_t r = 0; r < registers; ++r) {
         Quad x;
         std::memcpy(&x, waiting_.data() + k + 4 * r, sizeof(x));
