@@ -9,6 +9,7 @@
 #include "core/data/buffer_pool.hpp"
 #include "core/data/reduction.hpp"
 #include "core/data/views.hpp"
+#include "core/data/wide_sum.hpp"
 #include "core/grid/grid.hpp"
 
 namespace tushar::data {
