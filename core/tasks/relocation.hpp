@@ -163,9 +163,14 @@ class Relocation {
   template <int D>
   void findMoves(const grid::Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids,
                  PatchMoves& moves);
-  /// Records the destination of the particle with index `departed` among those that leave their cells.
+  /// The cells from which and to which a particle moves.
   template <int D>
-  void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int departed, PatchMoves& moves);
+  struct Step {
+    Index<D> from, to;
+  };
+  /// Records the destination of the particle that departed last.
+  template <int D>
+  void move(const grid::Patch& from, const Step<D>& step, Vec<D>& x, ParticleId id, PatchMoves& moves);
   /// Sorts the particles that left their patch into those at an invalid position, those outside the grid, and those
   /// that migrate to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
@@ -192,7 +197,10 @@ class Relocation {
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
   /// Whether a cell of the finest level is too close to coarser cells for a particle that comes from a patch.
-  bool isNearCoarser(const grid::Patch& from, const Index3& cell) const;
+  bool isNearCoarser(const grid::Patch& from, const Index3& cell) const {
+    return warehouse_->grid().levels() > 1 && isInOrNearCoarser(from, cell);
+  }
+  bool isInOrNearCoarser(const grid::Patch& from, const Index3& cell) const;
 
   data::Warehouse* warehouse_;
   int margin_ = 0;  ///< number of cells of the finest level that are required around particles

@@ -48,6 +48,15 @@ bool areInside(const Vec<D>* x, int count, const Vec<D>& lower, const Vec<D>& up
   return inside;
 }
 
+/// The cell that contains x along a kernel axis, as of Level::cellAlong: first seeks `cell`, which extends from `lower`
+/// to `upper`, and its neighbours.
+int cellNear(const grid::Level& level, int axis, int cell, double lower, double upper, double x) {
+  if (x >= lower && x < upper) return cell;
+  if (x >= upper && cell + 1 < level.cells().upper[axis] && x < level.nodePosition(axis, cell + 2)) return cell + 1;
+  if (x < lower && cell > 0 && x >= level.nodePosition(axis, cell - 1)) return cell - 1;
+  return level.cellAlong(axis, x);
+}
+
 /// Brings a position back to the grid along periodic axes.
 template <int D>
 void wrap(const grid::Level& level, Vec<D>& x) {
@@ -159,38 +168,37 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
       upper[d] = level.nodePosition(d, cell[d] + 1);
     }
     if (areInside<D>(x + range.first, range.size(), lower, upper)) return;
-    for (const int p : range)
-      if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) moves.departed.push_back(p);
-  });
-  if (moves.departed.empty()) return;
-  moves.incoming.reserve(moves.departed.size());
-  std::size_t next = 0;
-  set.forEachOccupiedInline<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
-    for (; next < moves.departed.size() && moves.departed[next] < range.last; ++next) {
-      const int p = moves.departed[next];
-      move<D>(patch, cell, x[p], ids[p], static_cast<int>(next), moves);
+    for (const int p : range) {
+      if (isInside<D>(x[p], lower, upper)) continue;
+      Index<D> to;
+      for (int d = 0; d < D; ++d) to[d] = cellNear(level, d, cell[d], lower[d], upper[d], x[p][d]);
+      if (to == cell) continue;
+      moves.departed.push_back(p);
+      move<D>(patch, {cell, to}, x[p], ids[p], moves);
     }
   });
 }
 
 template <int D>
-void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int departed,
-                      PatchMoves& moves) {
+void Relocation::move(const Patch& from, const Step<D>& step, Vec<D>& x, ParticleId id, PatchMoves& moves) {
   if (x[0] == data::removed) ++moves.losing.removed;
   if (x[0] == data::vanished || x[0] == data::removed) return;
   const grid::Level& level = warehouse_->grid().finest();
-  const int place = moves.departed[departed];
-  if (level.isPeriodic()) wrap<D>(level, x);
-  const Index<D> cell = level.cellOf<D>(x);
+  const int departed = static_cast<int>(moves.departed.size()) - 1, place = moves.departed.back();
+  Index<D> cell = step.to;
+  if (level.isPeriodic() && !level.cells().contains(cell)) {
+    wrap<D>(level, x);
+    cell = level.cellOf<D>(x);
+  }
   if (!level.cells().contains(cell)) {
     ++moves.losing.left;
-    const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
+    const Escape escape{level.cellNumber<D>(step.from), id, from.id(), place};
     if (!mayLeave<D>(level, x, cell) && (!moves.escape || escape < *moves.escape)) moves.escape = escape;
     return;
   }
   const Index3 wide = widened(cell);
   if (isNearCoarser(from, wide)) {  // it may be outside all patches of this level
-    const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
+    const Escape escape{level.cellNumber<D>(step.from), id, from.id(), place};
     if (!moves.escape || escape < *moves.escape) moves.escape = escape;
     return;
   }
@@ -200,9 +208,8 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     moves.outgoing.push_back({id, wide, place, departed});
 }
 
-bool Relocation::isNearCoarser(const Patch& from, const Index3& cell) const {
+bool Relocation::isInOrNearCoarser(const Patch& from, const Index3& cell) const {
   const grid::Grid& grid = warehouse_->grid();
-  if (grid.levels() == 1) return false;
   const grid::Box around = grid::Box{cell, cell + Index3::filled(1)}.grown(margin_, grid.dimension());
   return !(around.intersect(from.cells()) == around) && !grid.isFinest(around);
 }
