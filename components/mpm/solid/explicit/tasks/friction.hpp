@@ -71,6 +71,15 @@ class MeetingPlaces {
       if (*count++ > 1) visit(node);
     });
   }
+  /// Calls `visit(node)` for each other node of the rows.
+  template <class Visit>
+  void forEachOther(const data::TouchedRows& rows, Visit&& visit) const {
+    rows.forEachRow(box_, [&](Index3 node, int end) {
+      const std::uint8_t* count = bodies_.data() + box_.offset(node);
+      for (; node[0] < end; ++node[0])
+        if (*count++ <= 1) visit(node);
+    });
+  }
 
  private:
   Box box_;
@@ -109,17 +118,20 @@ void addSurface(const Patch& patch, const Material& material, const Vec3& common
   mirrorSurface<D>(patch, material, u.surface);
 }
 
-/// The surfaces of bodies for friction, at the nodes of the patch where several bodies have mass; undefined at other
-/// nodes.
+/// The surfaces of bodies for friction, at the nodes of the patch where several bodies have mass; 0 at other nodes that
+/// the body touches.
 template <class Shape, int D = Shape::dimension>
 void computeSurface(const Patch& patch, const std::vector<Material>& materials, const Vec3& commonSize,
                     const std::vector<NodeView<const NodeRecord>>& records, const std::vector<SurfaceSources<D>>& of) {
   MeetingPlaces<D> places(of.front().surface.box());
   for (std::size_t m = 0; m < of.size(); ++m) places.add(touchedRows<D>(of[m].x, Shape::ghostNodes), records[m]);
   for (std::size_t m = 0; m < of.size(); ++m) {
-    places.forEachPlace(
-        [&](const Index3& node) { of[m].surface.values()[of[m].surface.stored().offset(node)] = SurfaceRecord{}; });
+    const auto clear = [&surface = of[m].surface](const Index3& node) {
+      surface.values()[surface.stored().offset(node)] = SurfaceRecord{};
+    };
+    places.forEachPlace(clear);
     addSurface<Shape>(patch, materials[m], commonSize, places, of[m]);
+    places.forEachOther(touchedRows<D>(of[m].x, Shape::ghostNodes), clear);
   }
 }
 
