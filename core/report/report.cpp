@@ -304,8 +304,8 @@ std::string lossesOf(const Report& report) {
   std::string text;
   if (report.dropped > 0) text = fmt::format("{} left the grid", report.dropped);
   if (report.removed > 0)
-    text += fmt::format("{}{} removed: turned inside out, or thrown through a symmetry plane", text.empty() ? "" : ", ",
-                        report.removed);
+    text += fmt::format("{}{} removed: turned inside out, deformed too much or thrown through a symmetry plane",
+                        text.empty() ? "" : ", ", report.removed);
   return text.empty() ? "" : " (" + text + ")";
 }
 

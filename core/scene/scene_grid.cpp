@@ -144,7 +144,7 @@ grid::Domain readGrid(const Element& section, const SideWords& words, const grid
   domain.upper = box.upper;
   domain.resolution = resolutionOf(box, level, boxes.front(), diagnostics);
   domain.periodic = level.periodic;
-  checkPeriodic(section, domain, diagnostics);
+  dropPeriodicSides(section, domain, diagnostics);
   checkSize(domain, boxes.front(), diagnostics);
   if (diagnostics.size() == before) readRefinement(section, read.levels, amr, domain, diagnostics);
   if (diagnostics.size() == before) checkParts(parts, domain, diagnostics);

@@ -312,7 +312,9 @@ std::vector<GivenPart> readFaces(const Element& section, const FacesSection& fac
   return parts;
 }
 
-void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnostics& diagnostics) {
+void dropPeriodicSides(const Element& section, grid::Domain& domain, Diagnostics& diagnostics) {
+  for (int k = 0; k < 6; ++k)
+    if (domain.periodic[k / 2] != 0) domain.boundaries.faces[k].clear();
   const auto group = section.child("BoundaryConditions");
   if (!group) return;
   for (const Element& face : group->children("Face"))

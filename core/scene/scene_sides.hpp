@@ -65,8 +65,8 @@ void refuseParts(const input::Element& tag, input::Diagnostics& diagnostics);
 /// Reads the conditions of a `Grid` section. Returns the parts of sides that have conditions.
 std::vector<GivenPart> readFaces(const input::Element& section, const FacesSection& faces, const SideWords& words,
                                  grid::BoundaryConditions& boundaries, input::Diagnostics& diagnostics);
-/// Reports conditions at sides of periodic axes, which have no effect, as in Uintah.
-void checkPeriodic(const input::Element& section, const grid::Domain& domain, input::Diagnostics& diagnostics);
+/// Removes the conditions at sides of periodic axes, with a note: they have no effect, as in Uintah.
+void dropPeriodicSides(const input::Element& section, grid::Domain& domain, input::Diagnostics& diagnostics);
 /// Checks that parts of sides lie on their sides, do not overlap, and contain faces of cells.
 void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain, input::Diagnostics& diagnostics);
 

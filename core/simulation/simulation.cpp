@@ -37,8 +37,8 @@ void refuseLosses(RunState& run) {
   const long all = removed + collect::particleCount(run.warehouse, run.materials());
   if (static_cast<double>(removed) > most * static_cast<double>(all))
     throw NumericalError(
-        fmt::format("{} of {} were removed, more than {:g} %: steps turned them inside out, or threw them through a "
-                    "symmetry plane",
+        fmt::format("{} of {} were removed, more than {:g} %: steps turned them inside out, deformed them too much, or "
+                    "threw them through a symmetry plane",
                     removed, counted(all, "particle"), 100 * most),
         "");
 }

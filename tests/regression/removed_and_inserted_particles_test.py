@@ -110,6 +110,20 @@ class RemovedParticles(unittest.TestCase):
         self.assertIn("the wave speed of the particle at", result.err)
 
 
+class PeriodicSides(unittest.TestCase):
+    def test_let_particles_through_even_if_the_scene_also_calls_them_symmetry_planes(self):
+        body = BODY.format(label="first", low="[13,1,0]", high="[14,2,1]", color=1).replace("[0,0,0]", "[4,0,0]")
+        text = re.sub("<InsertParticles>.*</InsertParticlesFile>", "", PELLETS.format(bodies=body, faces=FACES))
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "crossing.ups"
+            scene.write_text(text.replace("</Box></Level>", "</Box><periodic>[1,0,0]</periodic></Level>"))
+            state = last_state(str(scene), "p.x")
+            report = run(str(scene)).report
+        self.assertEqual((report["particles"], report["particles_removed"], report["particles_dropped"]), (4, 0, 0))
+        # From x = 13.25 at 4 m/s for 1 s, through x+ at 16.
+        self.assertAlmostEqual(min(state["x [m]"]), 1.25, delta=1e-9)
+
+
 class InsertedParticles(unittest.TestCase):
     def test_move_at_their_time_and_fly_on_with_their_velocity(self):
         with tempfile.TemporaryDirectory() as folder:

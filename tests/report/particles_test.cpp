@@ -13,7 +13,7 @@ TEST(Particles, ThatLeftTheGridAreInTheReportThoughNoneRemain) {
   report.dropped = 5;
   EXPECT_NE(toText(report).find(", 0 particles (5 left the grid)"), std::string::npos) << toText(report);
   report.removed = 2;
-  EXPECT_NE(toText(report).find("(5 left the grid, 2 removed: turned inside out, or thrown through a symmetry plane)"),
+  EXPECT_NE(toText(report).find("(5 left the grid, 2 removed: turned inside out, deformed too much or thrown through a symmetry plane)"),
             std::string::npos)
       << toText(report);
   report.dropped = report.removed = 0;

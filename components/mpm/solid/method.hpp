@@ -30,6 +30,8 @@ struct Method {
   bool removesLost = true;
   /// Smallest number of substeps for F; -n: F follows from the series of exp(L dt) up to the power n instead.
   int minimumSubcyclesForF = 1;
+  /// Whether particles are lost if a step deforms them too much; a prescribed deformation may be as large as it likes.
+  bool limitsDeformation = true;
   Vec3 commonSize = Vec3::Ones();  ///< initial size of all particles in cells, unless each particle stores its own size
   std::array<bool, 3> isThin{};    ///< which of the axes x, y, z the grid does not use
   bool keepsSizes = false;         ///< whether each particle stores its size

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <limits>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 
@@ -50,8 +51,11 @@ struct Water {
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:
-  /// The factor J^-gamma.
-  double stiffening(const Deformation& d) const { return std::pow(d.deformationGradient.determinant(), -exponent); }
+  /// The factor J^-gamma; NaN for an inverted particle, also if gamma is an integer.
+  double stiffening(const Deformation& d) const {
+    const double j = d.deformationGradient.determinant();
+    return j > 0 ? std::pow(j, -exponent) : std::numeric_limits<double>::quiet_NaN();
+  }
 };
 static_assert(ConstitutiveModel<Water>);
 

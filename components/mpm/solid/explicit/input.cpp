@@ -70,10 +70,10 @@ void addLimits(Schema<MpmSection>& mpm) {
              "nodes lighter than this are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
                 "particles faster than this are slowed down to 9/10 of this speed", input::positive())
-      .choice(
-          "lost_particles", &MpmSection::removesLost, {{"remove", true}, {"stop", false}}, true,
-          "what happens when a step turns a particle inside out (det F <= 0) or throws it through a symmetry plane: it "
-          "is removed and counted, or the run stops")
+      .choice("lost_particles", &MpmSection::removesLost, {{"remove", true}, {"stop", false}}, true,
+              "what happens when a step turns a particle inside out (det F <= 0), deforms it so much that nodes next "
+              "to it must have moved farther than a cell, or throws it through a symmetry plane: it "
+              "is removed and counted, or the run stops")
       .ours()
       .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
              "smallest number of substeps in which a step updates the deformation gradient; -n: uses the exponential "
@@ -341,6 +341,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   problem.start.leastMass = read.minimumParticleMass;
   problem.method.removesLost = problem.method.removesLost && !repeatsSteps(root);
   problem.motion = readMotion(read, root, diagnostics);
+  problem.method.limitsDeformation = !problem.motion;
   problem.insertions = readEntering(read, root, diagnostics);
   nameMaterials(problem.materials);
   checkHeat(problem, root, diagnostics);

@@ -39,6 +39,14 @@ TEST(Water, HasThePressureOfItsDensityAndTheShearOfItsRate) {
   EXPECT_NEAR(stress(0, 1), 0.3 * 4, roundOff);
 }
 
+TEST(Water, HasNoWaveSpeedWhereAParticleIsInverted) {
+  Water water;
+  water.bulkModulus = 2;
+  water.exponent = 7;
+  const Matrix3 f = -Matrix3::Identity();
+  EXPECT_TRUE(std::isnan(water.waveSpeed(1, {f, f, Matrix3::Zero(), 1, 300}, Matrix3::Zero(), {})));
+}
+
 TEST(ThWater, HasTheVolumeOfItsPressureAndTemperature) {
   MaterialPoint<ThWater> point{thWater()};
   for (const double temperature : {277.0, 290.0, 310.0})

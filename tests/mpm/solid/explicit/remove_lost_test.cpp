@@ -73,6 +73,21 @@ TEST(RemoveLost, StopsTheRunWhereParticlesCannotBeRemoved) {
   EXPECT_EQ(cell.newX[1], cell.x[1]);
 }
 
+TEST(RemoveLost, NamesAParticleThatTheStepDeformsTooMuch) {
+  Cell cell;
+  cell.deformation[1] = -Matrix3::Identity();
+  try {
+    cell.remove(false);
+    FAIL() << "no error";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("the step deforms the particle at (0.5, 0.5, 0) m so much"),
+              std::string::npos)
+        << error.what();
+  }
+  cell.remove();
+  EXPECT_EQ(cell.newX[1][0], data::removed);
+}
+
 TEST(RemoveLost, StopsTheRunIfAParticleIsSoundButItsWaveHasNoSpeed) {
   Cell cell;
   cell.deformation[1] = Matrix3::Identity();

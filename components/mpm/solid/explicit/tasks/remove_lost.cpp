@@ -10,8 +10,8 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// The error for the first particle of a cell whose wave speed is undefined: its velocity is not a number, or it is
-/// inverted.
+/// The error for the first particle of a cell whose wave speed is undefined: its velocity is not a number, it is
+/// inverted, or the step deforms it too much.
 template <int D>
 NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                                 const data::ParticleRange& range) {
@@ -19,6 +19,11 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, con
   int p = range.first;
   while (p + 1 < range.last && isSound(p)) ++p;
   const Vec3 x = level.expandPoint<D>(u.x[p]);
+  if (u.deformation[p] == -Matrix3::Identity())
+    return {fmt::format("the step deforms the particle at ({:g}, {:g}, {:g}) m so much that nodes next to it must have "
+                        "moved farther than a cell",
+                        x[0], x[1], x[2]),
+            "", "p.deformationMeasure", level.cellNumber<D>(cell)};
   return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, the "
                       "particle's speed {:g} m/s",
                       x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),

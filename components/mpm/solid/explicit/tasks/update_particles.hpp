@@ -75,17 +75,28 @@ template <int D>
   storeVectors<D>(v, count, newVelocity);
 }
 
+/// The largest norm |L| dt with which a step may deform a particle. As sum_i |dS_i/dx_j| <= 2/h for tent functions and
+/// means of them, each component of L dt is at most 2 if no node moves farther than a cell, and their norm at most 6.
+/// Larger ones violate the CFL condition, and exp(L dt) would overflow for a few hundred.
+inline constexpr double mostDeformation = 6;
+
 /// Computes F of a particle at the end of the step from its velocity gradient; `square` is the sum of the gradient's
-/// squared components [1/s^2].
+/// squared components [1/s^2]. Returns whether the step deforms the particle too much: it then counts as inverted, with
+/// F = -I.
 template <int D>
-void deformBy(const Method& method, double dt, double square, const StateUpdate<D>& u, int p,
+bool deformBy(const Method& method, double dt, double square, const StateUpdate<D>& u, int p,
               const Matrix3& velocityGradient) {
   const Matrix3& before = u.oldDeformation[p];
   Matrix3& now = u.deformation[p];
+  if (method.limitsDeformation && square * dt * dt > mostDeformation * mostDeformation) {
+    now = -Matrix3::Identity();
+    return true;
+  }
   if (method.minimumSubcyclesForF < 1)
     deformBySeries(before, velocityGradient, dt, -method.minimumSubcyclesForF, now);
   else
     deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
+  return false;
 }
 /// Completes the update of a particle with a new F: restrains failed particles, and computes its volume.
 template <int D>
@@ -98,10 +109,11 @@ template <int D>
   if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
 }
 
-/// Computes L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r in axisymmetric scenes), F_p = (I + L_p dt)
-/// F_p, in substeps or, if the scene requests it, by terms of the series of exp(L_p dt).
+/// Computes L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r in axisymmetric scenes), F_p = (I + L_p dt) F_p, in
+/// substeps or, if the scene requests it, by terms of the series of exp(L_p dt). Returns whether the step deforms the
+/// particle too much.
 template <class Shape, int D = Shape::dimension>
-[[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
+[[gnu::always_inline]] inline bool deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
                                                   const StateUpdate<D>& u, int p, Matrix3& velocityGradient) {
   if constexpr (D < 3) velocityGradient.setZero();
@@ -113,13 +125,14 @@ template <class Shape, int D = Shape::dimension>
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
       velocityGradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) = sums.gradient[j][lane::velocity + i];
-  deformBy(method, dt, square, u, p, velocityGradient);
+  const bool lost = deformBy(method, dt, square, u, p, velocityGradient);
   finishDeformation(erosion, u, p, velocityGradient);
+  return lost;
 }
 
 /// Deforms `count` particles in three dimensions, starting with `first`, one per lane, as deformParticle deforms one;
-/// `velocityGradient` points to L of the first particle.
-[[gnu::always_inline]] inline void deformParticles(const Method& method, double dt, const GatheredLanes<3>& sums,
+/// `velocityGradient` points to L of the first particle. Returns whether the step deforms one of them too much.
+[[gnu::always_inline]] inline bool deformParticles(const Method& method, double dt, const GatheredLanes<3>& sums,
                                                    const Erosion& erosion, const StateUpdate<3>& u, int first,
                                                    int count, Matrix3* velocityGradient) {
   TensorOf<Lanes> gradient;
@@ -133,20 +146,23 @@ template <class Shape, int D = Shape::dimension>
   }
   const Lanes square = squares[0] + squares[1] + squares[2];
   storeLanes(gradient, velocityGradient, count);
+  bool lost = false;
   if (method.minimumSubcyclesForF == 1 && all(square * dt * dt < 1.0))
     deform(u.oldDeformation.values() + first, gradient, dt, count, u.deformation.values() + first);
   else
-    for (int k = 0; k < count; ++k) deformBy(method, dt, square[k], u, first + k, velocityGradient[k]);
+    for (int k = 0; k < count; ++k) lost |= deformBy(method, dt, square[k], u, first + k, velocityGradient[k]);
   for (int k = 0; k < count; ++k) finishDeformation(erosion, u, first + k, velocityGradient[k]);
+  return lost;
 }
 
 /// Whether several particles are updated together: only in three dimensions do cells contain enough of them.
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
 
-/// Moves `count` particles of a cell, starting with `first`, to the end of the step, without updating their stress.
+/// Moves the particles of a cell to the end of the step, without updating their stress. Returns whether the step
+/// deforms one of them too much.
 template <class Shape, class Move, int D = Shape::dimension>
-[[gnu::always_inline]] inline void moveAndDeform(const Level& level, const Index<D>& cell,
+[[gnu::always_inline]] inline bool moveAndDeform(const Level& level, const Index<D>& cell,
                                                  const Extents<Shape>& extents, const Material& material,
                                                  const Method& method, double dt, const StateUpdate<D>& u,
                                                  const data::ParticleRange& range, Matrix3* velocityGradient,
@@ -157,20 +173,22 @@ template <class Shape, class Move, int D = Shape::dimension>
   prefetch(u.velocity.values(), first + count, count);
   prefetch(u.oldDeformation.values(), first + count, count);
   prefetch(u.deformation.values(), first + count, count);
+  bool lost = false;
   if constexpr (updatesTogether<Shape>) {
     for (int k = 0; k < count; k += Lanes::count) {
       const int group = std::min(count - k, Lanes::count);
       const GatheredLanes<D> sums = gatherLanes(frame, cell, u.x.values(), extents, first + k, group, u.record);
       move(first + k, group, sums);
-      deformParticles(method, dt, sums, material.erosion, u, first + k, group, velocityGradient + k);
+      lost |= deformParticles(method, dt, sums, material.erosion, u, first + k, group, velocityGradient + k);
     }
   } else {
     forEachStencilOf(frame, cell, u.x.values(), extents, first, count, [&](int k, const auto& stencil) {
       const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.record, stencil));
       move(first + k, 1, sums);
-      deformParticle<Shape>(level, method, dt, sums, material.erosion, u, first + k, velocityGradient[k]);
+      lost |= deformParticle<Shape>(level, method, dt, sums, material.erosion, u, first + k, velocityGradient[k]);
     });
   }
+  return lost;
 }
 
 /// Updates F, the stress and related quantities of the patch's own particles to the end of the step, and computes the
@@ -190,7 +208,7 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
   u.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
     if (!moved.cells.takes(range)) updateStresses<D>(level, material, method, time, dt, u, none, space, moved);
     Matrix3* const velocityGradient = moved.add(cell, range);
-    moveAndDeform(level, cell, extents, material, method, dt, u, range, velocityGradient, move);
+    moved.hasLost |= moveAndDeform(level, cell, extents, material, method, dt, u, range, velocityGradient, move);
     if (volumes == Volumes::shared) shareVolume<D>(dt, range, u, velocityGradient);
   });
   updateStresses<D>(level, material, method, time, dt, u, none, space, moved);

@@ -131,12 +131,13 @@ void updateStresses(const Level& level, const Material& material, const Method& 
     CrossingRate<D> rate = none;
     const double* const waveSpeed = moved.waveSpeed.data() + (range.first - moved.cells.first());
     rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
-    if (!rate.isKnown() || (u.newX && !space.containAll(u.newX->values() + range.first, range.size())))
+    if (moved.hasLost || !rate.isKnown() || (u.newX && !space.containAll(u.newX->values() + range.first, range.size())))
       rate = withoutLost<D>(level, u, cell, range, none, space, waveSpeed);
     u.stableTimeStep.add(rate.time());
     if (u.stableTimeSteps) (*u.stableTimeSteps)[cell] = rate.time();
   });
   moved.cells.clear();
+  moved.hasLost = false;
 }
 
 template struct MovedParticles<1>;

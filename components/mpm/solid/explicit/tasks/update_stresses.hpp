@@ -16,6 +16,7 @@ struct MovedParticles {
   CellRun<D> cells;
   std::vector<Matrix3> velocityGradient;  ///< room for at least the particles of the cells
   std::vector<double> waveSpeed;          ///< same size as velocityGradient
+  bool hasLost = false;                   ///< whether the step deforms one of the particles too much
 
   /// Adds a cell; returns memory for L of its particles [1/s].
   Matrix3* add(const Index<D>& cell, const data::ParticleRange& range);
