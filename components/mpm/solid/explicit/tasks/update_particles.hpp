@@ -109,9 +109,9 @@ template <int D>
   if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
 }
 
-/// Computes L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r in axisymmetric scenes), F_p = (I + L_p dt) F_p, in
-/// substeps or, if the scene requests it, by terms of the series of exp(L_p dt). Returns whether the step deforms the
-/// particle too much.
+/// Computes L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r in axisymmetric scenes), F_p = (I + L_p dt)
+/// F_p, in substeps or, if the scene requests it, by terms of the series of exp(L_p dt). Returns whether the step
+/// deforms the particle too much.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline bool deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
