@@ -8,6 +8,7 @@
 #include "components/mpm/solid/explicit/input.hpp"
 #include "components/mpm/solid/scene_input.hpp"
 #include "components/mpmice/mpmice.hpp"
+#include "components/mpmice/wave_speeds.hpp"
 
 namespace tushar::mpmice {
 
@@ -202,11 +203,24 @@ void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagno
 }
 
 template <int D>
-std::unique_ptr<Component> make(const Level& level, const Settings& settings,
-                                const mpm::solid::MakeSurrounded& makeSolids) {
+std::unique_ptr<Component> makeWithGas(const Level& level, const Settings& settings,
+                                       const mpm::solid::MakeSurrounded& makeSolids) {
   auto gas = std::make_shared<const GasAround<D>>(settings);
   std::unique_ptr<mpm::solid::Solids> solids = makeSolids(level, settings.areRigid, gas);
   return std::make_unique<MpmIce<D>>(std::move(gas), std::move(solids));
+}
+
+/// Whether steps are explicit, although the scene has an <ImplicitSolver>, because waves in bodies limit them to much
+/// less than sound in the gas does; notes it. Implicit steps are kept if <ImplicitSolver> has a <Solver>, a tag of
+/// Tushar.
+bool needsNoImplicitSteps(const ice::GasScene& scene, const std::vector<mpm::solid::Material>& materials,
+                          const Element& root, Diagnostics& diagnostics) {
+  const Element section = *root.child("CFD")->child("ICE")->child("ImplicitSolver");
+  if (section.child("Solver") || !areBodiesMuchFaster(materials, scene.gas)) return false;
+  diagnostics.note(section, fmt::format("does nothing: steps are explicit, since waves in bodies, at {:.3g} m/s, limit "
+                                        "them to less than sound in the gas does; add a <Solver> to keep it",
+                                        fastestInBodies(materials)));
+  return true;
 }
 
 simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnostics& diagnostics) {
@@ -222,14 +236,14 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
                       "is not available with bodies; remove it, or keep only the gas");
-  const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
-  if (diagnostics.size() > before || !makeSolids) return {};
+  const mpm::solid::SurroundedSolids bodies = mpm::solid::readSurrounded(root, diagnostics);
+  if (diagnostics.size() > before || !bodies.make) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   settings.diffusion = {scene.varying, scene.diffusions};
   settings.heating = scene.heating;
   settings.scalars = scene.scalars;
   settings.gases = scene.mixture;
-  if (scene.implicit)
+  if (scene.implicit && (areRigid || !needsNoImplicitSteps(scene, bodies.materials, root, diagnostics)))
     settings.implicit = {.diffusion = scene.varying.varies() ? euler::Diffusion() : scene.varying.uniform,
                          .gravity = scene.gravity,
                          .soundSpeedKnob = scene.implicit->soundSpeedKnob,
@@ -244,10 +258,10 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);
   if (diagnostics.size() > before) return {};
-  return [settings, makeSolids](const Level& level) -> std::unique_ptr<Component> {
-    if (level.dimension() == 1) return make<1>(level, settings, makeSolids);
-    if (level.dimension() == 2) return make<2>(level, settings, makeSolids);
-    return make<3>(level, settings, makeSolids);
+  return [settings, make = bodies.make](const Level& level) -> std::unique_ptr<Component> {
+    if (level.dimension() == 1) return makeWithGas<1>(level, settings, make);
+    if (level.dimension() == 2) return makeWithGas<2>(level, settings, make);
+    return makeWithGas<3>(level, settings, make);
   };
 }
 

@@ -271,9 +271,13 @@ void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) con
 }
 
 template <int D>
-void GasAround<D>::scheduleStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("mpmice::limitStepOfBodies", limitStepOfBodies, with(settings_.gas.cfl),
-                 requiresOld(mpm::solid::total::stableTimeStep), computes(delT));
+void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const {
+  if (settings_.areRigid)
+    tasks.perMaterial("mpmice::limitStepOfRigidBodies", limitStepOfRigidBodies<D>, materials, with(settings_.gas.cfl),
+                      requiresOld(p::velocity<D>), computes(delT));
+  else
+    tasks.perPatch("mpmice::limitStepOfBodies", limitStepOfBodies, with(settings_.gas.cfl),
+                   requiresOld(mpm::solid::total::stableTimeStep), computes(delT));
   if (settings_.implicit) {
     tasks.perPatch("mpmice::limitImplicitStep", limitImplicitStep<D>, with(settings_),
                    gasIn(readsOld, {.state = 1, .mass = 2, .room = 2}), computes(delT));

@@ -25,7 +25,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
-  void scheduleStableTimeStep(TaskList& tasks) const;
+  void scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const;
   void scheduleDiagnostics(TaskList& tasks) const;
   void scheduleErrorEstimate(TaskList& tasks) const;
   void scheduleRefine(TaskList& tasks) const;
@@ -71,7 +71,9 @@ class MpmIce : public Component {
       : gas_(std::move(gas)), solids_(std::move(solids)) {}
 
   void scheduleInitialize(TaskList& tasks) const override { solids_->scheduleInitialize(tasks); }
-  void scheduleComputeStableTimeStep(TaskList& tasks) const override { gas_->scheduleStableTimeStep(tasks); }
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override {
+    gas_->scheduleStableTimeStep(tasks, solids_->problem().materials);
+  }
   void scheduleTimeAdvance(TaskList& tasks) const override { solids_->scheduleTimeAdvance(tasks); }
   void scheduleDiagnostics(TaskList& tasks) const override {
     solids_->scheduleDiagnostics(tasks);

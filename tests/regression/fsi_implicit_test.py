@@ -103,5 +103,34 @@ class ImplicitSteps(SceneTest):
             self.assertLess(max(abs(a - b) for a, b in zip(found[0][name], found[1][name])), 1e-8, name)
 
 
+class StepsOfStiffBodies(SceneTest):
+    STIFF = changed(CONTACT, ("<bulk_modulus>10000.0<", "<bulk_modulus>1e8<"))
+    SHORT = ("Grid/Level/Box/resolution=[50,1,1]", "Time/max_Timesteps=20")
+
+    def done(self, text, *sets):
+        done = run(self.scene(text), *self.SHORT, *sets, options=())
+        self.assertIsNotNone(done.report, done.err)
+        return done
+
+    def asking(self, text, solver=""):
+        order = '<advection type="SecondOrder"/>'
+        return changed(text, (order, f"{order}<ImplicitSolver>{solver}</ImplicitSolver>"))
+
+    def test_are_explicit_with_a_note_since_waves_in_bodies_limit_them(self):
+        explicit, asked = self.done(self.STIFF), self.done(self.asking(self.STIFF))
+        self.assertIn("steps are explicit, since waves in bodies, at 316 m/s, limit them", asked.err)
+        self.assertEqual(asked.report["fingerprint"], explicit.report["fingerprint"])
+
+    def test_are_implicit_for_soft_bodies_and_where_a_scene_has_a_solver(self):
+        for text, solver in ((CONTACT, ""), (self.STIFF, "<Solver><preconditioner>jacobi</preconditioner></Solver>")):
+            asked = self.done(self.asking(text, solver))
+            self.assertNotIn("steps are explicit", asked.err)
+            self.assertNotEqual(asked.report["fingerprint"], self.done(text).report["fingerprint"])
+
+    def test_do_not_depend_on_the_stiffness_of_bodies_that_keep_their_velocities(self):
+        ends = [self.done(text, "SimulationComponent/@type=rmpmice").report["time"] for text in (self.STIFF, CONTACT)]
+        self.assertEqual(ends[0], ends[1])
+
+
 if __name__ == "__main__":
     unittest.main()

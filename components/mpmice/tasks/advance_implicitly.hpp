@@ -55,7 +55,7 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
   offered.clear();
   double most = 0;
   ice::ImplicitStep<D> step(level, settings.gas, *settings.implicit, exchange.rules(),
-                            euler::largestBlock<D>(patch.cells()), dt, flatAtBodies<D>(level, cells));
+                            euler::largestBlock<D>(patch.cells()), dt, flatAtBodies<D>(patch, cells));
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     step.hold(block, before.alone.state, before.change);
     const auto sweep = [&]<int Axis>() {
@@ -82,6 +82,7 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
   const Level& level = patch.level();
   const ice::IceSettings& implicit = *settings.implicit;
   const euler::Gas& gas = settings.gas.gas;
+  const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
   const FreeSpace<D> space(level, settings, cells);
   const Vec<D> gravity = level.reduce<D>(settings.gravity);
   const std::size_t p = euler::kPressure<D>;
@@ -101,7 +102,7 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
         rate += 2 * implicit.diffusion.greatest(gas, rho) * (perWidth * perWidth) / (layer * layer);
       double most = 0;
       for (const int side : {0, 1}) {
-        if (space.isAtSide(cell, d, side) || !(space.aperture(cell, d, side) > 0)) continue;
+        if (space.isAtSide(cell, d, side) || (near(cell) && !(space.aperture(cell, d, side) > 0))) continue;
         const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
         const euler::State<D> other = cells.primitive(gas, next);
         const double rise = (side == 0 ? w[p] - other[p] : other[p] - w[p]) * perWidth;

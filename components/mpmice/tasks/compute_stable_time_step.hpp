@@ -56,4 +56,23 @@ inline void limitStepOfBodies(const Patch&, double cfl, double stableTimeStep, M
   dt.add(cfl * stableTimeStep, "wave speed of bodies");
 }
 
+/// Computes dt for bodies that keep their velocities: cfl times the shorter of the time in which the fastest particle
+/// crosses a cell, and 1 / (2 a sum_d 1/h_d²), up to which explicit conduction of heat with the diffusivity a is
+/// stable. There are no waves in such bodies.
+template <int D>
+void limitStepOfRigidBodies(const Patch& patch, const mpm::solid::Material& material, double cfl,
+                            ParticleView<const Vec<D>> velocity, Minimum& dt) {
+  const Level& level = patch.level();
+  double fastest = 0, squares = 0;
+  for (int d = 0; d < D; ++d) {
+    const double perWidth = level.inverseSpacing(d);
+    squares += perWidth * perWidth;
+    for (int p = 0; p < velocity.owned(); ++p) fastest = std::max(fastest, std::abs(velocity[p][d]) * perWidth);
+  }
+  if (fastest > 0) dt.add(cfl / fastest, "speed of bodies");
+  if (velocity.owned() == 0 || !(material.thermalConductivity > 0)) return;
+  const double diffusivity = material.thermalConductivity / (material.density * material.specificHeat);
+  dt.add(cfl / (2 * diffusivity * squares), "conduction in bodies");
+}
+
 }  // namespace tushar::mpmice

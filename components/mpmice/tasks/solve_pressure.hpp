@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "components/ice/tasks/solve_pressure.hpp"
 #include "components/mpmice/tasks/wall_force.hpp"
 
@@ -121,15 +125,38 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
   });
 }
 
-/// A function that returns whether a cell is piecewise constant because a body is in it or next to it.
+/// Marks the cells that are piecewise constant, because a body is in them or next to them. Cells beyond the grid are
+/// like the nearest ones on it.
 template <int D>
-ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
-  return [&level, cells](const Index<D>& cell) {
-    const auto hasBody = [&](const Index<D>& at) { return cells.hasBody(nearestOnGrid(level, at)); };
-    bool is = hasBody(cell);
-    for (int d = 0; d < D && !is; ++d) is = hasBody(cell - Index<D>::unit(d)) || hasBody(cell + Index<D>::unit(d));
-    return is;
-  };
+class FlatCells {
+ public:
+  /// Marks the cells of `box`, which must be at least one cell inside the views; their neighbours are looked at, too.
+  FlatCells(const Level& level, const GasInCells<D>& cells, const Box& box) : box_(box), is_flat_(box.size(), 0) {
+    const Box around = box.grown(1, D);
+    std::vector<std::uint8_t> hasBody(around.size());
+    forEach<D>(around, [&](const Index<D>& cell) {
+      hasBody[offsetIn<D>(around, cell)] = cells.hasBody(nearestOnGrid(level, cell)) ? 1 : 0;
+    });
+    forEach<D>(box, [&](const Index<D>& cell) {
+      std::uint8_t is = hasBody[offsetIn<D>(around, cell)];
+      for (int d = 0; d < D; ++d)
+        for (const Index<D>& next : {cell - Index<D>::unit(d), cell + Index<D>::unit(d)})
+          is |= hasBody[offsetIn<D>(around, next)];
+      is_flat_[offsetIn<D>(box_, cell)] = is;
+    });
+  }
+  bool operator()(const Index<D>& cell) const { return is_flat_[offsetIn<D>(box_, cell)] != 0; }
+
+ private:
+  Box box_;
+  std::vector<std::uint8_t> is_flat_;
+};
+
+/// Returns whether a cell of a patch, or of two layers around it, is piecewise constant, as a function.
+template <int D>
+ice::IsFlat<D> flatAtBodies(const Patch& patch, const GasInCells<D>& cells) {
+  return [flat = std::make_shared<const FlatCells<D>>(patch.level(), cells, patch.cells().grown(2, D))](
+             const Index<D>& cell) { return (*flat)(cell); };
 }
 
 /// The equation for the change of pressure of a cell's gas. It is that of `ice`, through the open fractions g of faces,
@@ -181,7 +208,7 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
   for (std::size_t p = 0; p < patches.size(); ++p) {
     flows
         .emplace_back(level, settings.gas, *settings.implicit, rules, patches[p]->cells(), dt,
-                      flatAtBodies<D>(level, cells[p]))
+                      flatAtBodies<D>(*patches[p], cells[p]))
         .hold(patches[p]->cells(), alone[p].state);
     spaces.emplace_back(level, settings, cells[p]);
   }

@@ -374,15 +374,16 @@ std::vector<std::vector<simulation::SectionForm>> forms() { return {sectionForms
 
 }  // namespace
 
-MakeSurrounded readSurrounded(const Element& root, Diagnostics& diagnostics) {
+SurroundedSolids readSurrounded(const Element& root, Diagnostics& diagnostics) {
   std::optional<ReadSolids> read = readSolids(root, true, diagnostics);
   if (!read) return {};
-  return [read = *read](const Level& level, bool areRigid, std::shared_ptr<const Surroundings> surroundings) {
+  auto make = [read = *read](const Level& level, bool areRigid, std::shared_ptr<const Surroundings> surroundings) {
     ReadSolids solids = read;
     for (Material& material : solids.problem.materials) material.isRigid |= areRigid;
     solids.problem.surroundings = std::move(surroundings);
     return makeComponent(level, solids);
   };
+  return {std::move(make), std::move(read->problem.materials)};
 }
 
 void describe(std::ostream& out) {

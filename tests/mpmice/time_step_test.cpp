@@ -1,0 +1,102 @@
+#include "tests/mpmice/fields.hpp"
+
+#include "components/mpm/solid/constitutive/comp_neo_hook.hpp"
+#include "components/mpm/solid/constitutive/make_model.hpp"
+#include "components/mpmice/tasks/compute_stable_time_step.hpp"
+#include "components/mpmice/tasks/solve_pressure.hpp"
+#include "components/mpmice/wave_speeds.hpp"
+
+namespace tushar::mpmice {
+
+namespace {
+
+template <class T>
+class FlatAlongAxes : public testing::Test {};
+TYPED_TEST_SUITE(FlatAlongAxes, AllAxes);
+
+/// Returns the step that two particles with the given velocities allow on a unit square of 10 x 10 cells, with a cfl of
+/// .5.
+Minimum stepFor(const std::vector<Vec<2>>& velocity, const mpm::solid::Material& material) {
+  const Grid grid(euler::closedBox(2, 10));
+  data::ParticleSet set;
+  set.reset(grid.patches().front(), 0);
+  set.setOwned(static_cast<int>(velocity.size()));
+  Minimum dt;
+  limitStepOfRigidBodies<2>(grid.patches().front(), material, 0.5, {velocity.data(), set, grid.level().cells()}, dt);
+  return dt;
+}
+
+/// A body whose waves have the speed c [m/s].
+mpm::solid::Material bodyWithWaves(double c) {
+  mpm::solid::Material material;
+  material.density = 3;
+  mpm::solid::CompNeoHook model;
+  model.bulkModulus = material.density * c * c;
+  model.shearModulus = 0;
+  material.model = mpm::solid::makeModel(model, material);
+  material.bodies.emplace_back();
+  return material;
+}
+
+/// A gas in which the speed of sound is 1 m/s.
+euler::Settings gasWithSound(const input::VectorExpression& velocity = {}) {
+  euler::Settings settings;
+  settings.gas.specificHeat = 1;
+  euler::GasObject object;
+  object.density = input::Expression(1.0);
+  object.temperature = input::Expression(1 / (1.4 * 0.4));
+  object.velocity = velocity;
+  settings.objects.push_back(object);
+  return settings;
+}
+
+}  // namespace
+
+TEST(StepOfRigidBodies, LetsTheFastestParticleCrossAPartOfACell) {
+  EXPECT_EQ(stepFor({{1, 2}, {-4, 0}}, {}).value, 0.5 * 0.1 / 4);
+}
+
+TEST(StepOfRigidBodies, IsNotLimitedAtRest) {
+  EXPECT_EQ(stepFor({{0, 0}, {0, 0}}, {}).value, Minimum().value);
+  EXPECT_EQ(stepFor({}, {}).value, Minimum().value);
+}
+
+TEST(StepOfRigidBodies, IsAtMostHalfOfThatForWhichConductionIsStable) {
+  mpm::solid::Material material;
+  material.density = 2;
+  material.specificHeat = 3;
+  material.thermalConductivity = 12;  // a diffusivity of 2, and h^2 / (4 a) in a plane
+  EXPECT_NEAR(stepFor({{0, 0}}, material).value, 0.5 * 0.01 / 8, 1e-17);  // round-off
+}
+
+TEST(WaveSpeeds, AreThoseOfBodiesAndGasAtTheStart) {
+  EXPECT_NEAR(fastestInBodies({bodyWithWaves(7), bodyWithWaves(9), bodyWithWaves(8)}), 9, 1e-14);
+  EXPECT_NEAR(fastestInGas(gasWithSound()), 1, 1e-15);
+  EXPECT_NEAR(fastestInGas(gasWithSound(input::VectorExpression(Vec3(3, -4, 5)))), 13, 1e-14);
+}
+
+TEST(WaveSpeeds, MakeImplicitStepsNeedlessWhereBodiesAreTenTimesAsFast) {
+  EXPECT_TRUE(areBodiesMuchFaster({bodyWithWaves(10.001)}, gasWithSound()));
+  EXPECT_FALSE(areBodiesMuchFaster({bodyWithWaves(9.999)}, gasWithSound()));
+  EXPECT_FALSE(areBodiesMuchFaster({bodyWithWaves(100)}, gasWithSound(input::VectorExpression(Vec3(20, 0, 0)))));
+}
+
+TYPED_TEST(FlatAlongAxes, AreTheCellsOfBodiesAndTheirNeighboursAlsoBeyondTheGrid) {
+  constexpr int D = TypeParam::value;
+  const Grid grid(euler::closedBox(D, 8));
+  const Level& level = grid.level();
+  GasFields<D> fields(level.cells());
+  for (std::size_t k = 0; k < fields.free.values.size(); ++k)
+    if (wild(static_cast<double>(k)) < 0.1) fields.free.values[k] = wild(0.5 + static_cast<double>(k));
+  const GasInCells<D> cells = fields.gas();
+  const ice::IsFlat<D> isFlat = flatAtBodies<D>(grid.patches().front(), cells);
+  forEach<D>(level.cells().grown(2, D), [&](const Index<D>& cell) {
+    bool expected = cells.hasBody(nearestOnGrid(level, cell));
+    for (int d = 0; d < D; ++d)
+      for (const Index<D>& next : {cell - Index<D>::unit(d), cell + Index<D>::unit(d)})
+        expected |= cells.hasBody(nearestOnGrid(level, next));
+    EXPECT_EQ(isFlat(cell), expected);
+  });
+}
+
+}  // namespace tushar::mpmice
