@@ -147,7 +147,7 @@ void declare(CLI::App& app, Arguments& arguments) {
 std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   const std::string text = CLI::FailureMessage::simple(app, error);
   const std::size_t line = text.find('\n');
-  return withNumber(text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
+  return withNumber("sus: the command line is wrong: " + text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
 }
 
 /// Handles `--check --json SCENE`: if no other word is the scene, the word after --json is the scene rather than a

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -220,6 +222,15 @@ std::string listOf(const std::vector<InputProblem>& problems) {
   return text;
 }
 
+/// The most memory that the process has had, and that of the machine, in words.
+std::string memoryUsed() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return fmt::format("the {:.3g} GB that it has had so far; the machine has {:.3g} GB",
+                     1024e-9 * static_cast<double>(used.ru_maxrss), 1e-9 * machine);
+}
+
 /// The failure that an exception describes; its text is empty if another rank reports it.
 Failure failureOf(const std::exception_ptr& thrown) {
   try {
@@ -232,7 +243,11 @@ Failure failureOf(const std::exception_ptr& thrown) {
   } catch (const mpi::FailedElsewhere&) {
     return {};
   } catch (const std::bad_alloc&) {
-    return {withNumber("sus: not enough memory for this scene") + "\n", ExitCode::failure, {}};
+    return {
+        fmt::format("sus: {}\n     try fewer cells or particles, or more ranks on more machines\n",
+                    withNumber(fmt::format("not enough memory for this scene: it needs more than {}", memoryUsed()))),
+        ExitCode::failure,
+        {}};
   } catch (const std::exception& error) {
     return {fmt::format("sus: {}\n", withNumber(error.what())), ExitCode::failure, {}};
   }

@@ -21,7 +21,7 @@ using simulation::TimeSettings;
 
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::max();
+constexpr double unlimited = TimeSettings::unlimited;
 
 constexpr const char* afterRestart =
     "does nothing: a restart continues with the step that the run would have taken; sus --restart --set "

@@ -21,7 +21,7 @@ double TimeControl::next(const data::Minimum& stable, double nextOutput) {
   double dt = settings_.timestepMultiplier * stable.value;
   limit_ = stable.reason;
   repeats_ = 0;
-  if (step_ > 0 && settings_.maxDeltIncrease > 0)
+  if (step_ > 0 && settings_.maxDeltIncrease > 0 && settings_.maxDeltIncrease < TimeSettings::unlimited)
     lower(dt, (1 + settings_.maxDeltIncrease) * del_t_, "max_delt_increase");
   if (dt < settings_.deltMin) {
     dt = settings_.deltMin;
@@ -29,6 +29,7 @@ double TimeControl::next(const data::Minimum& stable, double nextOutput) {
   }
   if (settings_.deltMax > 0) lower(dt, settings_.deltMax, "delt_max");
   if (step_ == 0 || time_ <= settings_.initialDeltRange) lower(dt, settings_.deltInit, "delt_init");
+  if (dt >= TimeSettings::unlimited) lower(dt, settings_.maxTime - time_, "maxTime");  // nothing moves
   if (!(dt > 0) || !std::isfinite(dt))
     throw NumericalError(fmt::format("the time step became {:.6g} s (step {}, time {:.6g} s)", dt, step_ + 1, time_),
                          "a scene in which something moves or has a speed of sound, or a <delt_max>");

@@ -9,17 +9,19 @@ namespace tushar::simulation {
 
 /// The `Time` section.
 struct TimeSettings {
-  double maxTime = 0;                                    ///< end of the run [s]
-  double initTime = 0;                                   ///< start of the run [s]
-  double deltMin = 0;                                    ///< smallest time step [s]
-  double deltMax = std::numeric_limits<double>::max();   ///< largest time step [s]
-  double deltInit = std::numeric_limits<double>::max();  ///< largest first time step [s]
+  static constexpr double unlimited = std::numeric_limits<double>::max();
+
+  double maxTime = 0;           ///< end of the run [s]
+  double initTime = 0;          ///< start of the run [s]
+  double deltMin = 0;           ///< smallest time step [s]
+  double deltMax = unlimited;   ///< largest time step [s]
+  double deltInit = unlimited;  ///< largest first time step [s]
   double initialDeltRange = 0;  ///< time until which deltInit limits the steps [s]; it always limits the first step
-  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< at most (1 + this) times the previous step;
-                                                                ///< no limit if not positive
+  double maxDeltIncrease = unlimited;  ///< at most (1 + this) times the previous step;
+                                       ///< no limit if not positive
   double timestepMultiplier = 1;
   int maxTimesteps = std::numeric_limits<int>::max();
-  double maxWallTime = std::numeric_limits<double>::max();  ///< largest wall time [s]
+  double maxWallTime = unlimited;  ///< largest wall time [s]
   bool endAtMaxTimeExactly = false;
   bool clampTimeToOutput = false;
   bool recomputeTimeStep = false;  ///< whether the step is repeated if a value violates its bound

@@ -122,6 +122,18 @@ TEST(TimeControl, RunsPastMaxTimeWhereNotAsked) {
   EXPECT_GT(time.time(), 0.25);
 }
 
+TEST(TimeControl, StepsToMaxTimeIfNothingLimitsTheStep) {
+  TimeControl time({.maxTime = 2});
+  time.next({0.5}, never);
+  time.advance();
+  EXPECT_EQ(time.next({never}, never), 1.5);
+  time.advance();
+
+  EXPECT_TRUE(time.done());
+  EXPECT_EQ(time.time(), 2);
+  EXPECT_EQ(time.limits().count("maxTime"), 1u);
+}
+
 TEST(TimeControl, RefusesStepsThatLeadNowhere) {
   EXPECT_EQ(refusal(0), "the time step became 0 s (step 1, time 0 s)");
   EXPECT_EQ(refusal(never), "");  // delt_max bounds it
