@@ -79,7 +79,8 @@ template <int D>
 /// means of them, each component of L dt is at most 2 if no node moves farther than a cell, and their norm at most 6.
 /// Larger ones violate the CFL condition, and exp(L dt) would overflow for a few hundred.
 inline constexpr double mostDeformation = 6;
-/// The smallest det F after a step with |L| dt above 1: long before det F underflows, and with it the particle's volume.
+/// The smallest det F after a step with |L| dt above 1: long before det F underflows, and with it the particle's
+/// volume.
 inline constexpr double leastVolume = 1e-12;
 
 /// Computes F of a particle at the end of the step from its velocity gradient; `square` is the sum of the gradient's
