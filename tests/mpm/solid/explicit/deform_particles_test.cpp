@@ -65,6 +65,15 @@ TEST(DeformParticles, LosesWhatIsDeformedMore) {
   EXPECT_TRUE(one.deform(stretch(7)));
 }
 
+TEST(DeformParticles, LosesWhatVanishes) {
+  Deformed one;
+  one.before[0](0, 0) = 1e-11;
+  EXPECT_FALSE(one.deform(stretch(-1.1)));
+  EXPECT_GT(one.now[0].determinant(), 0);
+  EXPECT_TRUE(one.deform(stretch(-5)));
+  EXPECT_EQ(one.now[0], -Matrix3::Identity());
+}
+
 TEST(DeformParticles, LeavesWhatIsNotANumberToThoseWhoReportIt) {
   Deformed one;
   EXPECT_FALSE(one.deform(stretch(std::nan(""))));

@@ -79,6 +79,9 @@ template <int D>
 /// means of them, each component of L dt is at most 2 if no node moves farther than a cell, and their norm at most 6.
 /// Larger ones violate the CFL condition, and exp(L dt) would overflow for a few hundred.
 inline constexpr double mostDeformation = 6;
+/// The smallest det F after a step with |L| dt above 1: long before det F underflows, and with it the particle's
+/// volume.
+inline constexpr double leastVolume = 1e-12;
 
 /// Computes F of a particle at the end of the step from its velocity gradient; `square` is the sum of the gradient's
 /// squared components [1/s^2]. Returns whether the step deforms the particle too much: it then counts as inverted, with
@@ -96,7 +99,9 @@ bool deformBy(const Method& method, double dt, double square, const StateUpdate<
     deformBySeries(before, velocityGradient, dt, -method.minimumSubcyclesForF, now);
   else
     deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
-  return false;
+  const bool vanishes = method.limitsDeformation && square * dt * dt > 1 && now.determinant() < leastVolume;
+  if (vanishes) now = -Matrix3::Identity();
+  return vanishes;
 }
 /// Completes the update of a particle with a new F: restrains failed particles, and computes its volume.
 template <int D>
