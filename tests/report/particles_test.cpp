@@ -13,8 +13,10 @@ TEST(Particles, ThatLeftTheGridAreInTheReportThoughNoneRemain) {
   report.dropped = 5;
   EXPECT_NE(toText(report).find(", 0 particles (5 left the grid)"), std::string::npos) << toText(report);
   report.removed = 2;
-  EXPECT_NE(toText(report).find("(5 left the grid, 2 removed: turned inside out, deformed too much or thrown through a symmetry plane)"),
-            std::string::npos)
+  EXPECT_NE(
+      toText(report).find(
+          "(5 left the grid, 2 removed: turned inside out, deformed too much or thrown through a symmetry plane)"),
+      std::string::npos)
       << toText(report);
   report.dropped = report.removed = 0;
   EXPECT_EQ(toText(report).find("particle"), std::string::npos) << toText(report);
