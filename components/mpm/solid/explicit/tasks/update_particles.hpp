@@ -81,7 +81,7 @@ template <int D>
 inline constexpr double mostDeformation = 6;
 /// The smallest det F after a step with |L| dt above 1: long before det F underflows, and with it the particle's
 /// volume.
-inline constexpr double leastVolume = 1e-12;
+inline constexpr double leastVolumeRatio = 1e-12;
 
 /// Computes F of a particle at the end of the step from its velocity gradient; `square` is the sum of the gradient's
 /// squared components [1/s^2]. Returns whether the step deforms the particle too much: it then counts as inverted, with
@@ -99,7 +99,7 @@ bool deformBy(const Method& method, double dt, double square, const StateUpdate<
     deformBySeries(before, velocityGradient, dt, -method.minimumSubcyclesForF, now);
   else
     deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
-  const bool vanishes = method.limitsDeformation && square * dt * dt > 1 && now.determinant() < leastVolume;
+  const bool vanishes = method.limitsDeformation && square * dt * dt > 1 && now.determinant() < leastVolumeRatio;
   if (vanishes) now = -Matrix3::Identity();
   return vanishes;
 }
