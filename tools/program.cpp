@@ -222,13 +222,17 @@ std::string listOf(const std::vector<InputProblem>& problems) {
   return text;
 }
 
-/// The most memory that the process has had, and that of the machine, in words.
-std::string memoryUsed() {
+/// The message about a lack of memory, with what the process has taken and what the machine has.
+std::string lackOfMemory() {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return fmt::format("the {:.3g} GB that it has had so far; the machine has {:.3g} GB",
-                     1024e-9 * static_cast<double>(used.ru_maxrss), 1e-9 * machine);
+  const std::string sentence = fmt::format(
+      "sus: not enough memory for this scene: it had {:.3g} GB, and the system refused more (the machine has {:.3g} "
+      "GB); "
+      "use fewer cells or particles, or more ranks on more machines",
+      1024e-9 * static_cast<double>(used.ru_maxrss), 1e-9 * machine);
+  return withNumber(sentence) + '\n';
 }
 
 /// The failure that an exception describes; its text is empty if another rank reports it.
@@ -243,11 +247,7 @@ Failure failureOf(const std::exception_ptr& thrown) {
   } catch (const mpi::FailedElsewhere&) {
     return {};
   } catch (const std::bad_alloc&) {
-    return {
-        fmt::format("sus: {}\n     try fewer cells or particles, or more ranks on more machines\n",
-                    withNumber(fmt::format("not enough memory for this scene: it needs more than {}", memoryUsed()))),
-        ExitCode::failure,
-        {}};
+    return {lackOfMemory(), ExitCode::failure, {}};
   } catch (const std::exception& error) {
     return {fmt::format("sus: {}\n", withNumber(error.what())), ExitCode::failure, {}};
   }
