@@ -143,11 +143,13 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
 }
 
-/// Describes the problem with the command line in a sentence.
+/// Describes the problem with the command line in a sentence; if CLI11 worded it, says what is wrong.
 std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   const std::string text = CLI::FailureMessage::simple(app, error);
   const std::size_t line = text.find('\n');
-  return withNumber("sus: the command line is wrong: " + text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
+  const std::string first = text.substr(0, line), ours = withNumber(first);
+  const std::string sentence = ours == first ? withNumber("sus: the command line is wrong: " + first) : ours;
+  return sentence + (line == std::string::npos ? "" : text.substr(line));
 }
 
 /// Handles `--check --json SCENE`: if no other word is the scene, the word after --json is the scene rather than a
