@@ -7,8 +7,9 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from solids import SceneTest, globals_of, last_state
+from solids import SceneTest, columns, globals_of, last_state
 from sus import ROOT
+from uda import FolderTest
 
 DISC, BLOCK, SLOPE = (f"ups/solid/{name}.ups" for name in ("driven_disc", "pushed_block", "sliding_block"))
 CONTACT = "MaterialProperties/MPM/contact/"
@@ -57,6 +58,18 @@ class PlaneFriction(SceneTest):
         sets = [CONTACT + "type=friction_LR"]
         momenta = globals_of("ups/solid/two_material_contact.ups", "TotalMomentum", sets=sets)["TotalMomentum"]
         self.assertLess(max(abs(line[1] / momenta[0][1] - 1) for line in momenta), 1e-12)
+
+
+class Surfaces(FolderTest):
+    def test_saved_surfaces_do_not_depend_on_patches(self):
+        found = set()
+        for layout in (None, "[2,1,1]", "[3,1,1]"):
+            folder = self.folder()
+            self.well(folder.run(SLOPE, "Time/max_Timesteps=3", "DataArchiver/save[1]/@label=g.surfaceRecord",
+                                 layout=layout))
+            surfaces = [columns(folder.uda, "g.surfaceRecord", material=body) for body in ("block", "slope")]
+            found.add(str(surfaces))
+        self.assertEqual(len(found), 1, "nodes at which no bodies meet are 0")
 
 
 class Faces(SceneTest):
