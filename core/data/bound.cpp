@@ -14,7 +14,10 @@ namespace {
 template <bool SeeksLeast>
 class Look {
  public:
-  Look() { least_.fill(1); }
+  Look() {
+    least_.fill(1);
+    sum_.fill(0);
+  }
 
   void add(const double* values, std::size_t count) {
     std::size_t k = 0;
@@ -57,7 +60,7 @@ class Look {
     return k;
   }
 
-  Registers least_, sum_{Lanes(0.), Lanes(0.), Lanes(0.), Lanes(0.)};
+  Registers least_, sum_;
   double last_least_ = 1, last_sum_ = 0;
 };
 

@@ -17,7 +17,7 @@ class RowTable {
   /// Closes all of `rows` rows of `length` cells.
   void reset(std::size_t rows, std::size_t length) {
     starts_.assign(rows, 0);
-    values_.resize(std::min(values_.size(), length));  // of closed rows, whose values never change
+    values_.resize(std::min(length_, length));  // of the row that closed rows share, whose values never change
     values_.resize(length, none_);
     length_ = length;
   }

@@ -43,10 +43,11 @@ TEST(RowTable, ForgetsItsRows) {
 TEST(RowTable, FillsRowsThatBecomeLonger) {
   RowTable<int> table(-1);
   table.reset(2, 2);
+  table.open(1)[0] = 7;
   table.open(1)[1] = 8;
-  table.reset(2, 3);
+  table.reset(2, 5);
 
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 5; ++k) {
     EXPECT_EQ(table[0][k], -1);
     EXPECT_EQ(table.open(1)[k], -1);
   }
