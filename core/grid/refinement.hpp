@@ -18,9 +18,9 @@ struct FineRegion {
 struct Refinement {
   int levels = 1;                ///< largest number of levels, including the coarsest
   Index3 blockCells{{8, 8, 8}};  ///< number of cells of a block along x, y, z
-  std::optional<Index3>
-      /// Largest number of blocks in a patch along x, y, z; if not given, it depends on the threads and ranks.
-      blocksPerPatch;
+  /// Largest number of blocks in a patch along x, y, z; if not given, patches have at most 256 cells, 64 x 64, or 32 x
+  /// 32 x 32, by dimension (see Grid).
+  std::optional<Index3> blocksPerPatch;
   std::vector<FineRegion> regions;
 };
 
