@@ -27,7 +27,7 @@ struct SideTag {
   Location where;
   int side = 0;  ///< 2 axis + side
   bool isPart = false;
-  std::optional<Vec3> start, end;  ///< m
+  std::optional<Vec3> start, end;  ///< two opposite corners [m]
 };
 struct SideList {
   std::vector<SideTag> list;

@@ -12,8 +12,8 @@
 
 namespace tushar::analysis {
 
-/// Whether diagnostics compute a cell variable that belongs to no material, rather than the state containing it; none
-/// if there is no such variable.
+/// Whether a cell variable that belongs to no material is computed by diagnostics (otherwise it is part of the state);
+/// none if there is no such variable.
 std::optional<bool> isDerived(const simulation::Component& component, std::string_view label);
 
 /// Whether diagnostics compute a total of this name.

@@ -41,7 +41,7 @@ class LineExtract : public ExtentModule {
   }
 
  private:
-  /// The distance between two neighbouring cells of a line that are written, in cells.
+  /// The stride, in cells, between those cells of a line that are written.
   int strideOf(const Extent& line, int level) const {
     const double width = std::ldexp(level_->cellWidth(axisOf(line)), level_->number() - level);
     return width > 0 ? std::max(1, static_cast<int>(std::ceil(line.step / width - 1e-9))) : 1;
@@ -58,7 +58,7 @@ class LineExtract : public ExtentModule {
     }
   }
 
-  /// Writes the cells of a box; the part's entry number `before` belongs to the first of them.
+  /// Writes the cells of a box; `before` is the index, in the part, of the entry of the first cell.
   void write(std::size_t line, const Snapshot& part, const std::vector<Found>& columns, const LevelBox& box,
              std::size_t before, const std::filesystem::path& folder) {
     const bool isOfNodes = columns.front().field->centring == output::Centring::node;

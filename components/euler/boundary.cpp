@@ -6,7 +6,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// Adds to the rule of a gas with its own law the prescribed density, pressure and temperature.
+/// Adds the prescribed density, pressure and temperature to the rule of a gas with its own law.
 template <int D>
 void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> density,
                     const std::optional<double>& pressure, GhostRule<D>& rule) {
@@ -202,7 +202,7 @@ double soundSpeedSquaredIn(const GhostRule<D>& rule, const std::array<double, N>
   }
 }
 
-/// Weakens the incoming wave of a state at constant entropy, to let waves out; the wave decays over `cells` cells. It
+/// Weakens the incoming wave in a state, at constant entropy, to let waves out; the wave decays over `cells` cells. It
 /// compresses all gases of a cell by the same factor.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {

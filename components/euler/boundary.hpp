@@ -39,7 +39,7 @@ template <int D>
 struct GhostRule {
   bool mirrored = false;
   State<D> factor, value;
-  double densityOfPressure = 0;  ///< if greater than 0, rho is this number times p + p_inf [kg/(m³ Pa)]
+  double densityOfPressure = 0;  ///< if greater than 0, rho is (p + p_inf) times this number [kg/(m³ Pa)]
   double pInfinity = 0;          ///< p_inf [Pa]
   double temperature = 0;        ///< if greater than 0, the temperature of a gas with its own law [K]
   const Gas* gas = nullptr;      ///< the gas with its own law
@@ -51,7 +51,7 @@ struct GhostRule {
 template <int D>
 struct SideRules : GhostRule<D> {
   std::vector<GhostRule<D>> parts = {};
-  /// If the scene gives formulas, the rule for a cell beyond a part of the side; otherwise no function.
+  /// Returns the rule for a cell beyond a part of the side, if the scene gives formulas; otherwise empty.
   std::function<GhostRule<D>(int part, const Index<D>& cell)> varying = {};
 
   /// Whether the same rule applies to all cells of the side.

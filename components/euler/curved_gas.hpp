@@ -162,10 +162,10 @@ class Water {
   struct Numbers {
     double a = 2e-7;           ///< a [K/Pa]
     double b = 2.6;            ///< b [J/(kg K²)]
-    double heat = 4205.7;      ///< heat c_0 [J/(kg K)]
-    double stiffness = 5e-10;  ///< stiffness k_0 [1/Pa]
+    double heat = 4205.7;      ///< specific heat c_0 [J/(kg K)]
+    double stiffness = 5e-10;  ///< compressibility k_0 [1/Pa]
     double temperature = 277;  ///< temperature T_0 [K]
-    double bend = 8e-6;        ///< bend L [1/K²]
+    double bend = 8e-6;        ///< curvature L of the volume around T_0 [1/K²]
     double volume = 1e-3;      ///< volume v_0 [m³/kg]
   };
   explicit Water(const Numbers& numbers) : n_(numbers) {

@@ -61,7 +61,7 @@ struct StiffenedGas {
   double heat(double, double pressure) const { return pressure + pInfinity; }
 };
 
-/// A gas: a stiffened gas, or a gas with its own law.
+/// A gas: a stiffened gas, or a gas with its own law, that is, another equation of state.
 struct Gas {
   using Law = std::variant<CurvedGas, Water, RealGas>;
 
@@ -143,7 +143,7 @@ struct Gas {
   }
 };
 
-/// The law of a gas, whose type is Law.
+/// The law of a gas, if it is of the type Law.
 template <class Law>
 Law lawOf(const Gas& gas) {
   if constexpr (std::is_same_v<Law, StiffenedGas>)

@@ -35,7 +35,8 @@ inline constexpr BoundaryLabel<double> density{"Density"};
 inline constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
 inline constexpr BoundaryLabel<double> pressure{"Pressure"};
 inline constexpr BoundaryLabel<double> temperature{"Temperature"};
-/// The condition that lets waves out. Its three components are the far-field pressure [Pa], sigma, and 0.
+/// The non-reflecting condition, which lets waves out. Its three components are the far-field pressure [Pa], sigma, and
+/// 0.
 inline constexpr BoundaryLabel<Vec3> waves{"LODI"};
 }  // namespace boundary
 

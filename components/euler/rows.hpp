@@ -108,8 +108,8 @@ class Rows {
   static constexpr std::size_t numbers = std::tuple_size_v<State<D, K>>;
   using Pointers = std::array<double*, numbers>;
 
-  /// Allocates space for boxes of up to `cells` cells or, in three dimensions, for a number of planes of z with up to
-  /// `cells` cells each. The initial values are 0 or undefined.
+  /// Allocates space for boxes of up to `cells` cells or, in three dimensions, for `planes` planes perpendicular to z
+  /// with up to `cells` cells each. The initial values are 0 or undefined.
   explicit Rows(std::size_t cells, int planes = 0) : Rows(cells, planes, Values(room(cells, planes), 0.0)) {}
   static Rows unfilled(std::size_t cells, int planes = 0) { return {cells, planes, Values(room(cells, planes))}; }
 

@@ -25,7 +25,7 @@ struct MixtureViews : StateViews<D, T> {
 template <int D, int K, class T>
 using ViewsOf = std::conditional_t<K == 1, StateViews<D, T>, MixtureViews<D, T>>;
 
-/// Accesses to the state at the start of a step, with `ghost` layers of cells around the patch.
+/// The accesses to the state at the start of a step, with `ghost` layers of cells around the patch.
 template <int D>
 struct OldState : StateViews<D, const double> {
   static OldState from(auto& take, int ghost) {
@@ -34,7 +34,7 @@ struct OldState : StateViews<D, const double> {
   }
 };
 
-/// Accesses to the state that a step computes.
+/// The accesses to the state that a step computes.
 template <int D>
 struct NewState : StateViews<D, double> {
   static NewState from(auto& take) {
@@ -42,7 +42,7 @@ struct NewState : StateViews<D, double> {
   }
 };
 
-/// Accesses to the state that a task changes.
+/// The accesses to the state that a task changes.
 template <int D>
 struct ChangedState : StateViews<D, double> {
   static ChangedState from(auto& take) {

@@ -38,14 +38,14 @@ struct SimpleBurn {
 /// Source: M. J. Ward, S. F. Son and M. Q. Brewster, Combust. Flame 114 (1998) 556.
 struct SteadyBurn {
   double gasConstant = 0;        ///< gas constant R [J/(mol K)]
-  double solidFactor = 0;        ///< solid factor A [1/s]
+  double solidFactor = 0;        ///< pre-exponential factor A of the reaction in the solid [1/s]
   double activationEnergy = 0;   ///< activation energy E [J/mol]
-  double gasFactor = 0;          ///< gas factor B [m³/(kg s K²)]
-  double solidHeat = 0;          ///< solid heat Q_c [J/kg]
-  double gasHeat = 0;            ///< gas heat Q_g [J/kg]
+  double gasFactor = 0;          ///< rate factor B of the reaction in the gas [m³/(kg s K²)]
+  double solidHeat = 0;          ///< heat of the reaction in the solid, Q_c [J/kg]
+  double gasHeat = 0;            ///< heat of the reaction in the gas, Q_g [J/kg]
   double gasConductivity = 0;    ///< gas conductivity k_g [W/(m K)]
   double solidConductivity = 0;  ///< solid conductivity k_c [W/(m K)]
-  double specificHeat = 0;       ///< c of solid and gas [J/(kg K)]
+  double specificHeat = 0;       ///< specific heat c of solid and gas [J/(kg K)]
   double molarMass = 0;          ///< molar mass W [kg/mol]
 
   /// The burn rate [kg/(m² s)].
@@ -94,8 +94,8 @@ struct Induction {
   double speed = 0;     ///< speed F_b [m/s]
   double exponent = 0;  ///< F_c [1]
 
-  /// The time of a flame divided by its time along a surface, from I_c to 1. `cosine` belongs to the angle between the
-  /// path of the flame and the normal of the surface.
+  /// The time that a flame takes along a path, relative to that along a surface; it is between I_c and 1. `cosine`
+  /// belongs to the angle between the path of the flame and the normal of the surface.
   double part(double cosine) const {
     const double along = 1 - 2 * cosine * cosine;  // sin(2 theta - pi/2)
     return 0.5 * (1 + inwards) + 0.5 * (1 - inwards) * along;
@@ -118,8 +118,8 @@ struct Ddt {
   static bool enterCracks(double pressure, double radius) {
     return pressure > 0 && std::pow(pressure, 2.84) * radius * radius > 8e8;
   }
-  /// The area of the surface of cracks per volume of the body [1/m], as in Uintah: that of plates with a thickness of 2
-  /// mm.
+  /// The surface area of cracks per volume of the body [1/m], as in Uintah: that of plates 2 mm thick, each with one
+  /// burning face.
   static constexpr double surfaceOfCracks = 500;
 };
 

@@ -30,8 +30,8 @@ template <int K>
 using LawsOf = std::conditional_t<K == 1, euler::Gas, euler::Mixture<K>>;
 
 /// Makes a state of several gases consistent after its components have been changed separately: scales masses and
-/// shares so that the shares add up to 1, and sets the density to the sum of the masses. Returns whether each mass and
-/// each share is at least 0.
+/// volume fractions so that the fractions add up to 1, and sets the density to the sum of the masses. Returns whether
+/// each mass and each fraction is at least 0.
 template <int D, int K>
 bool closeState([[maybe_unused]] euler::State<D, K>& w) {
   if constexpr (K == 1) {
@@ -78,7 +78,7 @@ class GasBefore {
   const Level& level() const { return level_; }
   const LawsOf<K>& gas() const { return gas_; }
   const Vec<D>& gravity() const { return gravity_; }
-  /// Rho, v and p; for several gases also their masses and shares.
+  /// Rho, v and p; for several gases also their masses and volume fractions.
   const euler::Rows<D, K>& old() const { return old_; }
   /// Speed of sound in a cell [m/s].
   double soundSpeed(const Index<D>& cell) const { return soundSpeed(cell, old_.number(cell, euler::kDensity)); }

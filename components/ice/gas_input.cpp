@@ -62,8 +62,8 @@ void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagn
   }
 }
 
-/// Reports a condition that another one of its face excludes. `slips`: the face is a wall that slips; `relaxes`: it
-/// lets waves out.
+/// Reports a condition that is incompatible with another condition of the same face. `slips`: the face is a wall that
+/// slips; `relaxes`: it lets waves out.
 void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
@@ -97,7 +97,7 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
-/// Notes sections for implicit steps that have no effect here.
+/// Adds notes on sections that concern implicit steps but have no effect here.
 void noteIdle(const Element& root, const IceSection& ice, bool isImplicit, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
     diagnostics.note(*solver, isImplicit ? "does nothing: the settings of the solve are in <ImplicitSolver>"

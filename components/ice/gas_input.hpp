@@ -75,8 +75,8 @@ inline constexpr const char* pressureOnOneLevel =
 /// Advice if a run fails.
 inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder";
 
-/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the boundary conditions of the grid. In
-/// the scene, the `solids` materials of MPM come before the gas. Reports every problem to the diagnostics.
+/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> (apart from its section MPM), and the boundary conditions of
+/// the grid. In the scene, the `solids` materials of MPM come before the gas. Reports every problem to the diagnostics.
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
 
 /// The forms of the sections that readGas reads or accepts, for a component without further sections.

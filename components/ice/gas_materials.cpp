@@ -15,8 +15,8 @@ using input::Element;
 
 namespace {
 
-/// Notes that a given pressure has no effect if it differs from the one that follows from density and temperature; it
-/// is ignored, as in Uintah.
+/// If a given pressure differs from the one that follows from density and temperature, notes that it is ignored, as in
+/// Uintah.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;

@@ -54,7 +54,8 @@ GhostRules<D> withLawsOf(GhostRules<D> rules, const std::vector<Settings>& gases
   if (gases.size() == 2) return withLaws<D>(std::move(rules), mixtureOf<2>(gases));
   return gases.size() == 3 ? withLaws<D>(std::move(rules), mixtureOf<3>(gases)) : rules;
 }
-/// Like ghostRules, for several gases, of which the first has the conditions; for a single gas, `gases` is empty.
+/// Like ghostRules, but with the laws of several gases; the conditions are those of `first`. For a single gas, `gases`
+/// is empty.
 template <int D>
 GhostRules<D> ghostRulesOf(const Level& level, const Gas& first, const std::vector<Settings>& gases, double time = 0) {
   return withLawsOf<D>(ghostRules<D>(level, first, time), gases);
@@ -87,8 +88,8 @@ using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>&
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 
-/// Divides volume fractions by their sum in the cells where it is not 1, because fluxes through the rim of a level were
-/// corrected there. The sum contains the correction of the flux of volume. Other cells are unchanged.
+/// Divides volume fractions by their sum in the cells where it is no longer 1 because fluxes through the rim of a level
+/// were corrected. The sum contains the correction of the flux of volume. Other cells are unchanged.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 

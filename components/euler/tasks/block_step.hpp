@@ -42,12 +42,12 @@ struct Work {
   }
 
   Rows<D, K> w;                          ///< primitive values of cells
-  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, for each axis; empty if cells are constant
+  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, for each axis; empty without slopes
   Rows<D, K> flux;                       ///< fluxes through lower faces, along one axis at a time
   std::vector<double> least;             ///< smallest density and p + p_inf at faces, for one row
 
  private:
-  /// Number of planes that are stored of faces, and of upper faces along the last axis; 0: all.
+  /// How many planes of face values are stored, and how many of values at upper faces along the last axis; 0: all.
   struct Planes {
     int faces = 0, above = 0;
   };
@@ -90,8 +90,8 @@ void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, W
   halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
 }
 
-/// Whether loops may also run over inconsistent states, with arbitrary results, without taking longer than for other
-/// states.
+/// Whether loops may also run over inconsistent states, because these take no longer than others; the results for them
+/// are arbitrary.
 template <class G>
 inline constexpr bool takesAnyStates = std::is_same_v<G, StiffenedGas>;
 

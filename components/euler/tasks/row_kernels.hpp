@@ -13,7 +13,7 @@ template <int D, int K = 1>
 using Pointers = typename Rows<D, K>::Pointers;
 
 /// Computes rho, v, p of `count` cells from rho, rho v (D numbers per cell) and E; for several gases, `w` already
-/// contains the masses and shares.
+/// contains the masses and volume fractions.
 template <int D, class G>
 void recoverRow(const G& gas, const double* density, const double* momentum, const double* energy, int count,
                 const Pointers<D, kGases<G>>& w) {
@@ -100,7 +100,8 @@ void closeRow(int count, const Pointers<D, K>& values) {
   }
 }
 
-/// Makes the cells constant in which `least` is not positive: sets the values at both faces to those of the cell.
+/// Makes the state constant in each cell in which `least` is not positive: sets the values at both faces to those of
+/// the cell.
 template <int D, int K = 1>
 void flattenRow(const double* least, const Pointers<D, K>& w, int count, const Pointers<D, K>& lower,
                 const Pointers<D, K>& upper) {

@@ -51,8 +51,8 @@ struct WarmThings {
   }
 };
 
-/// The increase d of the common pressure at which the gases still fill the same volume: the root of sum (a_k + b_k d) /
-/// (P_k + d) above the least -P_k. It is unique, because the volume of each gas falls with the pressure. It is found by
+/// The increase d of the common pressure at which the gases still fill the same volume: the root d > -min P_k of sum
+/// (a_k + b_k d) / (P_k + d) = 0. It is unique, because the volume of each gas falls with the pressure. It is found by
 /// Newton's method within bounds.
 template <class Vector>
 double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressure) {

@@ -11,7 +11,7 @@ namespace tushar::ice {
 
 namespace c {
 
-/// Labels of the law of the gases in a cell before a step, which the solve uses.
+/// Labels of the coefficients in the law of the gases in a cell before a step; the solve uses this law.
 inline constexpr CellLabel<double> softness{"c.softness", "1", "sum of z / (gamma - 1) of several gases"};
 inline constexpr CellLabel<double> stiffness{"c.stiffness", "J/m^3",
                                              "sum of z gamma p_inf / (gamma - 1) of several gases"};
@@ -55,7 +55,8 @@ struct LawfulState : euler::OldState<D> {
   static LawfulState from(auto& take) {
     return {{euler::OldState<D>::from(take, 2)}, take(requiresNew(c::softness, 2)), take(requiresNew(c::stiffness, 2))};
   }
-  /// Views of an apparent mixture of two gases whose volume fractions are G and S themselves, as lawsOfShares expects.
+  /// Views with G and S in place of the volume fractions of two gases; with lawsOfShares, these have the law of the
+  /// mixture.
   euler::MixtureViews<D, const double> views() const {
     return {*this, {this->density, this->density}, {softness, stiffness}};
   }

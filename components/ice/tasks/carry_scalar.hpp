@@ -123,7 +123,7 @@ class ScalarAtFaces {
   double perMass(const Index<D>& cell, int axis) const {
     return dt_ * level_.inverseSpacing(axis) / before_.density[cell];
   }
-  /// The factor of the differences with which the mean of what remains in the cell is within the limits.
+  /// The factor by which to shrink the differences, so that the mean of what remains in the cell is within the limits.
   double shrinkage(const Index<D>& cell, const Faces& change, double least, double most) const {
     double rest = 1, gone = 0;
     for (int d = 0; d < D; ++d)

@@ -45,7 +45,7 @@ void forEachFaceOf(const Level& level, const Index<D>& cell, double dt, Visit&& 
   }
 }
 
-/// Returns the equation weight d = 0 of a cell, where d is the change of the cell's pressure.
+/// Returns the equation `weight * d = 0` of a cell, where d is the change of the cell's pressure.
 template <int D>
 numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   numerics::CellEquation<D> equation{{}, 0};
@@ -54,8 +54,8 @@ numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   return equation;
 }
 
-/// Adds weight (d - d_n) to the left-hand side of a cell's equation. d_n is the change in the cell `next`; beyond the
-/// grid, it is 0.
+/// Adds `weight * (d - d_n)` to the left-hand side of a cell's equation. d_n is the change in the cell `next`; beyond
+/// the grid, it is 0.
 template <int D, int K>
 void couple(const FaceFlow<D, K>& flow, const Index<D>& next, double weight, numerics::Balance<D>& left) {
   left.weights[0] += weight;
