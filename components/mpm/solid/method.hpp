@@ -26,11 +26,12 @@ struct Method {
   std::optional<ArtificialViscosity> viscosity;
   double minimumMassForAcceleration = 1e-199;     ///< mass up to which nodes feel only gravity [kg]
   std::optional<double> maximumParticleVelocity;  ///< maximum particle velocity [m/s]
-  /// Whether particles that are turned inside out or thrown out are removed; otherwise the run ends.
+  /// Whether particles that a step turns inside out or throws through a symmetry plane are removed; otherwise, those
+  /// that are turned inside out end the run.
   bool removesLost = true;
   /// Smallest number of substeps for F; -n: F follows from the series of exp(L dt) up to the power n instead.
   int minimumSubcyclesForF = 1;
-  /// Whether particles are lost if a step deforms them too much; a prescribed deformation may be as large as it likes.
+  /// Whether particles are lost if a step deforms them too much; a prescribed deformation may have any size.
   bool limitsDeformation = true;
   Vec3 commonSize = Vec3::Ones();  ///< initial size of all particles in cells, unless each particle stores its own size
   std::array<bool, 3> isThin{};    ///< which of the axes x, y, z the grid does not use

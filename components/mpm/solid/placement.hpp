@@ -12,7 +12,7 @@ namespace tushar::mpm::solid {
 
 struct Body;
 
-/// A particle that does not start at the centre of an equal part of a cell.
+/// A particle that does not start at the centre of one of the equal parts of a cell.
 struct Seed {
   Vec3 at = Vec3::Zero();            ///< position [m]
   Matrix3 domain = Matrix3::Zero();  ///< edges of the particle in cells, one per column
@@ -22,7 +22,7 @@ struct Seed {
 /// The particles of a body, by the index of the cell in which they start.
 using Seeds = std::map<std::uint64_t, std::vector<Seed>>;
 
-/// The seed of a particle that fills an equal part of a cell; `at` is not set.
+/// The seed of a particle that fills one of the equal parts of a cell; `at` is not set.
 template <int D>
 Seed partOfCell(const Level& level, const Index3& particlesPerCell) {
   Seed seed;

@@ -178,7 +178,7 @@ struct Footprint {
     Index<D> k;
     weights<D - 1>(k, Lanes(1), field, visit);
   }
-  /// The field in a plane perpendicular to its last axis, at the distance `arm` from the centre.
+  /// The field in a plane perpendicular to the last axis on which it depends, at the distance `arm` from the centre.
   template <int Axis>
   static Field<Axis - 1> slice(const Field<Axis>& field, const Lanes& arm) {
     constexpr std::size_t half = std::size_t{1} << Axis;

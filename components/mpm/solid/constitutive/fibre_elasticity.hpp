@@ -73,7 +73,7 @@ struct FibreElasticity {
   }
 
   /// Computes tau = 2 dev((w1 + I1 w2) B' - w2 B'²) + g dev(a a) + K ln J I [Pa]; w1 and w2 are the derivatives of W_m
-  /// by I1 and I2, g = l dW_f/dl, and a is the direction of the deformed fibre.
+  /// with respect to I1 and I2, g = l dW_f/dl, and a is the direction of the deformed fibre.
   Matrix3 elasticStress(const Point& at) const {
     const RubberSlopes w = rubberSlopes(at.first);
     const Matrix3 matrix = (w.byFirst + at.first * w.bySecond) * at.b - w.bySecond * at.b * at.b;
@@ -117,7 +117,7 @@ struct FibreElasticity {
   }
 
  private:
-  /// First derivatives of W_m by I1 and I2, and its second derivative by I1 [Pa].
+  /// First derivatives of W_m with respect to I1 and I2, and its second derivative with respect to I1 [Pa].
   struct RubberSlopes {
     double byFirst, bySecond, curvature;
   };

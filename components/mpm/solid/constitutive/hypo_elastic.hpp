@@ -10,8 +10,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Linear elasticity in rate form, sigma += (2 G dev D + K tr D I) dt with D = (L + Lᵀ)/2, as Uintah's `hypo_elastic`:
-/// without an objective rate, the stress does not rotate with the material.
+/// Linear elasticity in rate form, sigma += (2 G dev D + K tr D I) dt with D = (L + Lᵀ)/2, as in Uintah's
+/// `hypo_elastic`: without an objective rate, the stress does not rotate with the material.
 struct HypoElastic : IsotropicModuli {
   using State = NoState;
   using Capabilities =

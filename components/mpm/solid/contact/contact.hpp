@@ -34,7 +34,7 @@ struct Contact {
     specified,       ///< the materials follow a master, whose velocity may be given over time
     friction,        ///< the materials separate freely and slide with Coulomb friction
     planeFriction,   ///< like friction, along the plane that separates their particles (see SeparatingPlane)
-    /// The materials separate from a master, whose velocity may be given, and slide on it along such planes.
+    /// The materials separate from a master, whose velocity may be given, and slide on it along the separating planes.
     specifiedFriction,
   };
 
@@ -57,7 +57,7 @@ struct Contact {
   double friction = 0;  ///< friction coefficient mu
   Profile<double>
       frictionOfColor;          ///< mu as a function of p.color of the master, instead of time; empty: mu is `friction`
-  bool onlyOnApproach = false;  ///< friction only: whether bodies under compression may separate, too
+  bool onlyOnApproach = false;  ///< friction only: whether bodies may separate even under compression
   bool normalsInCells =
       /// Friction only: whether mass gradients are per cell instead of per m, as in Uintah's axisymmetric scenes.
       false;

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The state of one particle at the end of a step that determines the growth of damage.
+/// The variables of one particle at the end of a step that determine the growth of damage.
 struct DamageConditions {
   const Matrix3& deformation;  ///< deformation gradient F [1]
   double volume;               ///< volume [m^3]

@@ -61,7 +61,7 @@ class NodalHeat {
   using Touched = std::span<const Touch<D>>;
   struct Point {
     const Material& material;
-    double mass, temperature, volume;  ///< A in grad S = A^T grad_0 S: F^-1, or I if the grid is reset
+    double mass, temperature, volume;  ///< mass [kg], temperature [K], volume [m^3]
     Matrix3 carried;                   ///< A in grad S = A^T grad_0 S: F^-1, or I if the grid is reset
   };
 

@@ -5,8 +5,8 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// The Material Point Method with implicit time steps, as Uintah's impm: Guilkey & Weiss, Int. J. Numer. Meth. Engng 57
-/// (2003) 1323. The displacement of the nodes in a step solves a non-linear system (see ImplicitSystem).
+/// The Material Point Method with implicit time steps, like Uintah's impm: Guilkey & Weiss, Int. J. Numer. Meth. Engng
+/// 57 (2003) 1323. The displacement of the nodes in a step solves a non-linear system (see ImplicitSystem).
 template <int D>
 class ImplicitMpm : public Solids {
  public:

@@ -16,7 +16,7 @@ struct ImplicitMethod {
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
   solvers::LinearSettings heat;   ///< solver for the conduction of heat
-  int iterationsToDecrease = 12;  ///< number of iterations from which on the next step is shorter
+  int iterationsToDecrease = 12;  ///< smallest number of iterations after which the next step is shorter
   int iterationsToIncrease = 4;   ///< number of iterations up to which the next step is longer
   double decreaseFactor = 0.6;
   double increaseFactor = 2;

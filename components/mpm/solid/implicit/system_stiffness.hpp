@@ -41,8 +41,7 @@ void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Mat
   std::array<int, D> axis;
   for (int d = 0; d < D; ++d) axis[d] = sceneAxis<D>(map_.level(), d);
   const NodeTouch<D>* touch = touchesOf(at);
-  /// The sum over the components in B's column of component i of a node, starting from `sum`, each times the value for
-  /// its row.
+  /// Returns `sum` plus the sum over k of `rows(k)` times B_kc, where c is the column of component i of a node.
   const auto times = [&](const NodeTouch<D>& node, int i, const auto& rows, auto sum) {
     for (int j = 0; j < D; ++j) sum += rows(3 * axis[i] + axis[j]) * node.gradient[j];
     if (i == 0 && node.hoop != 0) sum += rows(8) * node.hoop;

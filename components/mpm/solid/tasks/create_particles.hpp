@@ -176,8 +176,8 @@ void standIn(const Patch& patch, const Material& material, ParticleMaker& maker,
   });
 }
 
-/// Fills each body with its particles: `particlesPerCell` along each axis, each in the centre of an equal part of a
-/// cell, if the shape contains that point. As in Uintah, bodies may overlap; if such points lie on a face that two
+/// Fills each body with its particles: `particlesPerCell` along each axis, each in the centre of one of the equal parts
+/// of a cell, if the shape contains that point. As in Uintah, bodies may overlap; if such points lie on a face that two
 /// bodies share, both bodies have particles there.
 ///
 /// The id of a particle is composed of the index of its cell and its position in the cell, so it does not depend on the

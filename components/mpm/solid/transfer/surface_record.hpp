@@ -44,8 +44,8 @@ struct alignas(64) SurfaceRecord {
 template <int D>
 class SurfaceShare {
  public:
-  /// The contribution of a particle at x [m] with its mass [kg], volume [m^3] and stress [Pa]; mass gradients are those
-  /// of `weight`.
+  /// The contribution of a particle at x [m] with its mass [kg], volume [m^3] and stress [Pa]; in the mass gradient,
+  /// `weight` takes the place of the mass.
   SurfaceShare(const Vec<D>& x, double mass, double volume, double weight, const Matrix3& stress)
       : mass_(mass), gradient_{weight, weight, weight, volume}, position_(quadOf<D>(x, stress(0, 0))) {
     std::memcpy(&stress_, stress.data() + 1, sizeof(stress_));

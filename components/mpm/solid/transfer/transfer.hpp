@@ -64,8 +64,8 @@ template <std::size_t D>
   return high;
 }
 
-/// Adds S_i value to record_i, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop in axisymmetric scenes),
-/// for the nodes i of a stencil.
+/// Adds S_i * value to record_i, and sum_d dS_i/dx_d * slope_d (+ S_i / r * hoop in axisymmetric scenes) to its high
+/// half, for the nodes i of a stencil.
 template <class Stencil, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,
                                            const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,

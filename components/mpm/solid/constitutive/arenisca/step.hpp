@@ -85,8 +85,8 @@ class Substep {
     return best;
   }
 
-  /// Finds the result of `consistent` by the Illinois variant of false position if both ends are known, and by
-  /// bisection if the surface at the upper end is beyond the return.
+  /// Finds the result of `consistent` by the Illinois variant of false position while the excess at both ends is known,
+  /// and by bisection while there is no return to the surface at the upper end.
   Return falsePosition(const Return& atRest) const {
     const double whole = std::abs(atRest.plasticStrain.trace());
     Return best = atRest;

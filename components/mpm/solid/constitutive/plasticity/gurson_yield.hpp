@@ -43,8 +43,8 @@ struct GursonYield {
                       input::between(0, 1));
     return schema;
   }
-  /// The effective porosity f* [1]; at most greatest(), because beyond it the formula would give more strength to more
-  /// pores.
+  /// The effective porosity f* [1]; at most greatest(), because beyond it, by the formula, the strength would rise with
+  /// the porosity.
   double effective(double f) const {
     return std::min(f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f, greatest());
   }

@@ -21,8 +21,8 @@ struct ReturnTangent {
   double modulus = 0;                             ///< modulus G [Pa]
   double excess = 0;                              ///< q, decrease of |s| by the return [Pa]
   double hardening = 0;                           ///< H = d sigma_y / d e_p [Pa]
-  double byRate = 0;                              ///< derivative of sigma_y by the logarithm of the strain rate [Pa]
-  double modulusByVolume = 0, yieldByVolume = 0;  ///< derivatives of G and of sigma_y by ln J [Pa]
+  double byRate = 0;                              ///< d sigma_y / d ln(strain rate) [Pa]
+  double modulusByVolume = 0, yieldByVolume = 0;  ///< dG / d ln J and d sigma_y / d ln J [Pa]
 
   /// Change of the deviator [Pa] if the strain changes by `de` and ln J by `volume`.
   Matrix3 change(const Matrix3& de, double volume) const {

@@ -16,7 +16,7 @@ namespace tushar::mpm::solid {
 ///
 ///     K tr D 1 + 2 G dev D - beta (n : D) n,   beta = (2 G)^2 / (2 G + 2 H/3),   n = dev sigma / |dev sigma|.
 struct PlasticTangent {
-  double bulk = 0;       ///< bulk K [Pa]
+  double bulk = 0;       ///< bulk modulus K [Pa]
   double shear = 0;      ///< shear modulus G [Pa]
   double hardening = 0;  ///< H = d sigma_y / d e_p [Pa]
 

@@ -55,7 +55,7 @@ void applyLoadsAtCorners(const Patch& patch, const Material&, const Loads& loads
   }
 }
 
-/// Adds N_i(x) force to f_i, with the tent functions of the cell that contains the point.
+/// Adds N_i(x) times `force` to f_i; N_i are the tent functions of the cell that contains x.
 template <int D>
 void addForceAt(const Level& level, const Vec<D>& x, const Vec<D>& force, NodeView<NodeRecord> record) {
   Index<D> cell;

@@ -40,9 +40,9 @@ void addMomentum(const Contact& contact, const Records& records, double share, N
   });
 }
 
-/// Applies contacts to the velocities at the end of the step, as Uintah's exMomIntegrated. Adds the force of rigid and
-/// specified contacts to `reaction` and, for a master that transmits force, the force that the other materials exert on
-/// it,
+/// Applies contacts to the velocities at the end of the step, like Uintah's exMomIntegrated. Adds the force of rigid
+/// and specified contacts to `reaction` and, for a master that transmits force, the force that the other materials
+/// exert on it,
 /// - sum m (v* after - v* before) / dt at each node [N] to `transmitted`.
 template <int D>
 void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& materials,

@@ -30,7 +30,8 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, con
           "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
-/// Removes a particle, and gives it the state at the start of the step, so that later tasks of the step can read it.
+/// Marks a particle as removed, and gives it the state at the start of the step, so that later tasks of the step can
+/// still read it.
 template <int D>
 void removeParticle(const StateUpdate<D>& u, int p) {
   (*u.newX)[p][0] = data::removed;

@@ -30,11 +30,11 @@ struct BetweenPlanes {
   }
 };
 
-/// Removes the lost particles of a cell in which a wave speed is undefined, a particle is deformed too much or behind a
-/// symmetry plane: those that the step turns inside out (det F <= 0), as explicit finite-element codes delete elements
-/// with a negative Jacobian, those that it deforms by more than `mostDeformation`, whose F is -I, and those that it
-/// throws through a symmetry plane. Returns the crossing rate of the waves of all other particles; `none` is the rate
-/// without waves. Throws NumericalError if particles cannot be removed, or if another particle's wave speed is
+/// Removes the lost particles of a cell in which a wave speed is undefined or a particle is deformed too much or lies
+/// behind a symmetry plane: those that the step turns inside out (det F <= 0), as explicit finite-element codes delete
+/// elements with a negative Jacobian, those that it deforms by more than `mostDeformation`, whose F is -I, and those
+/// that it throws through a symmetry plane. Returns the crossing rate of the waves of all other particles; `none` is
+/// the rate without waves. Throws NumericalError if particles cannot be removed, or if another particle's wave speed is
 /// undefined.
 template <int D>
 CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,

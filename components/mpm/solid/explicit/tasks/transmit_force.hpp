@@ -65,8 +65,8 @@ void accelerate(ParticleView<const Vec<D>> x, int ghostNodes, const Vec<D>& chan
   });
 }
 
-/// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of the transmitted forces)
-/// / mass, regardless of the conditions at the sides of the grid. The motions are indexed by patch, then by material.
+/// Accelerates all nodes of a material that transmits force by (sum of its loads and of the transmitted forces) / mass,
+/// regardless of the conditions at the sides of the grid. The motions are indexed by patch, then by material.
 template <int D>
 void computeGridVelocityForFTM(const RankPatches& patches, const std::vector<Material>& materials,
                                const mpi::Communicator& ranks, int ghostNodes, double dt,
