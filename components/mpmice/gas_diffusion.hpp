@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// The diffusing quantities of a cell that contains gas, rho, T, v and c, and its coefficients without eddies.
+/// The diffusing quantities rho, T, v and c of a cell that contains gas, and its coefficients without eddies.
 template <int D>
 euler::DiffusingCell<D> diffusingAt(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                                     const Index<D>& cell) {

@@ -52,7 +52,7 @@ struct GasInCells {
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
 
-  /// Numbers of ghost layers that are needed of the state, of the presence of gas, and of the free volume.
+  /// How many ghost layers are needed for the state, for the presence of gas, and for the free volume.
   struct Reach {
     int state = 0, mass = 0, room = 0;
     std::size_t gases = 0;  ///< number of gases if there are several, otherwise 0

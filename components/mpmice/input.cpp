@@ -210,9 +210,9 @@ std::unique_ptr<Component> makeWithGas(const Level& level, const Settings& setti
   return std::make_unique<MpmIce<D>>(std::move(gas), std::move(solids));
 }
 
-/// Whether steps are explicit, although the scene has an <ImplicitSolver>, because waves in bodies limit them to much
-/// less than sound in the gas does; notes it. Implicit steps are kept if <ImplicitSolver> has a <Solver>, a tag of
-/// Tushar.
+/// Whether steps are explicit although the scene has an <ImplicitSolver>, because waves in bodies limit them to much
+/// less than sound in the gas does. If so, adds a note. Implicit steps are kept if <ImplicitSolver> has a <Solver>, a
+/// tag of Tushar.
 bool needsNoImplicitSteps(const ice::GasScene& scene, const std::vector<mpm::solid::Material>& materials,
                           const Element& root, Diagnostics& diagnostics) {
   const Element section = *root.child("CFD")->child("ICE")->child("ImplicitSolver");

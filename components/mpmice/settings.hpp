@@ -56,12 +56,12 @@ struct Settings {
   std::vector<ice::ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
 };
 
-/// The offset of thresholds for free volumes from round fractions. Bodies that are aligned with cells leave such
-/// fractions free; with the offset, round-off does not decide on which side of a threshold they are.
+/// The amount by which thresholds for free volumes differ from round fractions. Bodies that are aligned with cells
+/// leave such fractions free; with the offset, round-off does not decide on which side of a threshold they are.
 inline constexpr double offRoundShares = 1e-9;
 /// The free volume below which a cell is treated as full.
 inline constexpr double leastFreeVolume = offRoundShares;
-/// The free volume from which on a cell is treated as free of bodies.
+/// The smallest free volume at which a cell is treated as free of bodies.
 inline constexpr double wholeFreeVolume = 1 - offRoundShares;
 /// The free volume below which the gas of a cell is merged with that of a neighbour.
 inline constexpr double smallFreeVolume = 0.5 - offRoundShares;

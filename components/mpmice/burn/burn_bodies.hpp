@@ -42,7 +42,7 @@ class BurntMass {
     forEachFace(cell, [&](const Index<D>&, double burnt) { wanted += std::max(0.0, burnt); });
     return wanted;
   }
-  /// The fraction of the mass burned by the gas of a cell that comes from particles in this cell.
+  /// Of the mass that the gas of a cell burns, the fraction that comes from particles in this cell.
   double coveredBy(const Index<D>& cell) const {
     const double wanted = wantedFrom(cell);
     return wanted > mass_[cell] ? mass_[cell] / wanted : 1;

@@ -147,7 +147,7 @@ class BurnModes {
   };
   /// The path of a flame into a cell.
   struct Flame {
-    double part = std::numeric_limits<double>::infinity();  ///< time of the flame divided by its time along a surface
+    double part = std::numeric_limits<double>::infinity();  ///< time of the flame relative to that along a surface
     BurnMode from = BurnMode::none;
   };
 

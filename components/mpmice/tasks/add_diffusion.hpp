@@ -77,7 +77,7 @@ class DiffusionBeside {
       return d == axis ? rise(cell, below, v) * perWidth : slope(cell, below, d, v);
     });
   }
-  /// Distance along an axis between the middles of the gas of two cells, in cells.
+  /// Distance along an axis between the centres of the gas in two cells, in cells.
   double distance(const Index<D>& cell, const Index<D>& below, int axis) const {
     if (isBeyond(cell, axis) || isBeyond(below, axis)) {
       const bool isUpper = isBeyond(cell, axis);  // the mirror image is as far away from the side
@@ -121,7 +121,7 @@ void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCell
   });
 }
 
-/// The places for the diffusive fluxes [Pa and W/m²] through the rim of the level, before small cells are merged.
+/// The storage for the diffusive fluxes [Pa and W/m²] through the rim of the level, before small cells are merged.
 template <int D>
 struct RimsOfDiffusion : euler::DiffusionRims<D> {
   static RimsOfDiffusion from(auto& take) {

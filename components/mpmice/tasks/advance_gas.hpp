@@ -110,7 +110,7 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 
-/// Adds to the gas of a block the forces of walls, and to `power` the power of the gas on these walls.
+/// Adds the forces of walls to the gas of a block, and the power of the gas on these walls to `power`.
 template <int D>
 void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
               const UnsharedGas<D>& fresh, const OfferedExchange<D>& offered, Sum& power) {
