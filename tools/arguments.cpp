@@ -143,7 +143,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
 }
 
-/// Describes the problem with the command line in a sentence; if CLI11 worded it, says what is wrong.
+/// Describes the problem with the command line in a sentence; words by CLI11 follow `the command line is wrong`.
 std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   const std::string text = CLI::FailureMessage::simple(app, error);
   const std::size_t line = text.find('\n');

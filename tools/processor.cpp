@@ -8,8 +8,8 @@
 
 #define TUSHAR_ANY_PROCESSOR [[gnu::target("arch=x86-64")]]
 #define TUSHAR_TEXT(words) #words
-/// `name` if the compiler used these instructions and the processor lacks them; otherwise the value that follows. A
-/// compiler that uses them defines `macro` as 1.
+/// `name` if the compiler used these instructions and the processor lacks them; otherwise the value written after the
+/// macro. A compiler that uses them defines `macro` as 1.
 #define TUSHAR_IF_MISSING(macro, name) TUSHAR_TEXT(macro)[0] == '1' && !__builtin_cpu_supports(name) ? name:
 
 namespace {

@@ -81,8 +81,8 @@ class WallExchange {
     return given;
   }
 
-  /// The mass of gas, per cell volume, that would flow up through the open fraction of the lower face of a cell if it
-  /// moved with the bodies at this face.
+  /// The mass of gas, per cell volume, that would flow up through the open fraction of the lower face of a cell if the
+  /// gas moved with the bodies at this face.
   double carriedThrough(const Index<D>& cell, int axis) const {
     const double open = space_.aperture(cell, axis, 0);
     if (!(open > 0)) return 0;

@@ -36,12 +36,12 @@ inline double fastestInBodies(const std::vector<mpm::solid::Material>& materials
   return most;
 }
 
-/// How much faster waves in bodies are than the gas and its sound if explicit steps of the gas are chosen, although the
-/// scene has an <ImplicitSolver>. Even in three dimensions, the explicit steps of the gas are then at least three times
-/// as long as those of the bodies, which are always explicit.
+/// How many times as fast as the gas and its sound the waves in bodies must be for the gas to take explicit steps
+/// although the scene has an <ImplicitSolver>. Even in three dimensions, the explicit steps of the gas are then at
+/// least three times as long as those of the bodies, which are always explicit.
 inline constexpr double muchFaster = 10;
 
-/// Whether steps that waves in bodies limit are so short that the gas needs no implicit steps.
+/// Whether waves in bodies limit the steps so strongly that the gas needs no implicit steps.
 inline bool areBodiesMuchFaster(const std::vector<mpm::solid::Material>& materials, const euler::Settings& gas) {
   const double bodies = fastestInBodies(materials);
   return std::isfinite(bodies) && bodies >= muchFaster * fastestInGas(gas);

@@ -15,7 +15,8 @@ double leastStiffnessOf(const RiemannProblem& problem) {
   return std::min(problem.gas.stiffness, problem.rightGas.value_or(problem.gas).stiffness);
 }
 
-/// Solves the problem with pressures p + p_inf of the softer gas, which makes that gas ideal; the waves are the same.
+/// Solves the problem with all pressures increased by the p_inf of the softer gas, which makes that gas ideal; the
+/// waves are the same.
 RiemannSolution solveShifted(const RiemannProblem& problem) {
   const double shift = leastStiffnessOf(problem);
   const auto shifted = [&](RiemannState state) {

@@ -6,7 +6,7 @@
 
 namespace tushar::reference {
 
-/// A GasState as an array that can be added: density, the three velocities, pressure, energy.
+/// A GasState as an array, so that states can be added: density, the three velocities, pressure, energy.
 using Fields = Eigen::Array<double, 6, 1, Eigen::DontAlign>;
 
 inline Fields toFields(const GasState& state) {

@@ -14,9 +14,9 @@ namespace tushar::reference {
 
 using ReferencePointer = std::shared_ptr<const GasReference>;
 
-/// Makes the analysis that compares a component's gas with a solution, which `build` makes for a grid, within a region
-/// if the tags give one. Throws InputError with the location of the module if the component solves for no gas or for
-/// other gases than `gases`, or if `build` throws std::invalid_argument.
+/// Makes the analysis that compares a component's gas with the solution that `build` makes for a grid; if the tags give
+/// a region, only within that region. Throws InputError with the location of the module if the component solves for no
+/// gas or for other gases than `gases`, or if `build` throws std::invalid_argument.
 simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const grid::Level&)> build, const GasTags& tags,
                                         const std::vector<GasLaw>& gases, const input::Element& module);
 

@@ -26,7 +26,7 @@ inline constexpr GasErrorLabels particleError{
     {"ParticleError.pressure", "Pa", "error of pressure (without artificial viscosity) at the particles"},
     {"ParticleError.energy", "J/kg", "error of internal energy at the particles"}};
 
-/// Errors of cell means, relative to exact cell means; cells without gas count as 0.
+/// Errors of cell means, relative to exact cell means; cells without gas count as vacuum.
 inline constexpr GasErrorLabels cellError{{"CellError.density", "kg/m^3", "error of the mean density of cells"},
                                           {"CellError.velocity", "m/s", "error of the mean velocity of cells"},
                                           {"CellError.pressure", "Pa", "error of the mean pressure of cells"},

@@ -12,7 +12,7 @@ struct RadialState {
   double energy = 0;    ///< internal energy per mass [J/kg]
 };
 
-/// A gas whose state depends only on the distance from a plane, a line or a point, the centre, with one shock.
+/// A gas with one shock, whose state depends only on the distance from its centre, which is a plane, a line or a point.
 class RadialReference : public GasReference {
  public:
   GasState at(const Vec3& x, double t) const final;

@@ -36,7 +36,8 @@ class TiltedTube : public GasReference {
  private:
   void checkMirrors() const;
   void findMeetingTime();
-  /// Adds the planes in the box that are the plane at `position` along the tube, or one of its images.
+  /// Adds the plane at `position` along the tube and, if the tube has a mirror, its image; if they repeat, adds those
+  /// repetitions of both that cut the box.
   void addImages(double position, const Vec3& lower, const Vec3& upper, std::vector<Plane>& planes) const;
 
   ExactRiemann tube_;

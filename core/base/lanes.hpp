@@ -103,7 +103,7 @@ class Lanes {
   }
 
   /// Inserts component Which of the vectors in register Next and in all later registers into `sum`, which already
-  /// contains that of the vectors in earlier registers.
+  /// contains this component of the vectors in earlier registers.
   template <int numbers, int Which, int Next, int... Lane>
   [[gnu::always_inline]] static void takeRegisters(Register& sum, const double* from,
                                                    std::integer_sequence<int, Lane...> lanes) {

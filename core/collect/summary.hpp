@@ -17,7 +17,7 @@ struct Summary {
   output::Array least, greatest, sum;
 };
 
-/// Returns the summary of a cell or node variable of a generation on rank 0, and empty arrays on the other ranks. The
+/// Returns, on rank 0, the summary of a cell or node variable of a generation, and empty arrays on the other ranks. The
 /// result is bitwise equal for all patches and ranks. Collective; ranks exchange only their own summaries.
 Summary summaryOf(data::Warehouse& warehouse, data::Generation generation, int variable, SummaryOver over);
 

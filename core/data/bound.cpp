@@ -10,7 +10,8 @@ namespace tushar::data {
 
 namespace {
 
-/// A summary of many numbers, for checking them at once, in several registers of lanes that do not wait for each other.
+/// A summary of many numbers, for checking them at once; it is computed in several registers of lanes, independently of
+/// each other.
 template <bool SeeksLeast>
 class Look {
  public:

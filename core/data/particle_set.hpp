@@ -114,7 +114,7 @@ class ParticleSet {
   }
   /// The same for writing; valid until the next row is opened.
   ParticleRange* openRow(const Index3& cell) { return ranges_.open(rowOf(cell)) + (cell[0] - cells_.lower[0]); }
-  /// Makes space for the rows of a set that is about as large.
+  /// Makes space for about as many rows with particles as `other` has.
   void makeSpaceFor(const ParticleSet& other) { ranges_.makeSpaceFor(other.ranges_); }
 
   /// Declares that the particles of all cells of the patch have been added, `count` in total.

@@ -14,7 +14,7 @@ class RowTable {
   /// A table of cells whose value is `none`.
   explicit RowTable(const T& none = {}) : none_(none) {}
 
-  /// Closes all of `rows` rows of `length` cells.
+  /// Resets the table to `rows` rows of `length` cells, all closed.
   void reset(std::size_t rows, std::size_t length) {
     starts_.assign(rows, 0);
     values_.resize(std::min(length_, length));  // of the row that closed rows share, whose values never change
@@ -46,7 +46,7 @@ class RowTable {
     std::copy_n(values_.begin(), length_, values_.begin() + start);  // faster than copies of a single value
   }
 
-  std::vector<std::size_t> starts_;  ///< for each row, the place of its first value; 0: the row that closed rows share
+  std::vector<std::size_t> starts_;  ///< place of the first value of each row; 0 for closed rows, which share values
   std::vector<T> values_;
   std::size_t length_ = 0;
   T none_;

@@ -20,8 +20,8 @@ std::size_t placeInTable(const BlockTree& tree, const BlockId& block) {
   return Box{{}, tree.blocksOf(block.level)}.offset(block.at);
 }
 
-/// Lookup tables for levels whose table needs not much more memory than the leaves. A table is faster than a search on
-/// the curve.
+/// Lookup tables for those levels whose table has at most `mostPerLeaf` entries per leaf of the tree. A table is faster
+/// than a search on the curve.
 std::vector<std::vector<int>> tablesOf(const BlockTree& tree) {
   constexpr std::size_t mostPerLeaf = 8;
   std::vector<std::vector<int>> tables(static_cast<std::size_t>(tree.levels()));

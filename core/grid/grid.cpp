@@ -23,8 +23,8 @@ MortonCurve::Cuts cutsOf(const Level& level) {
   return cuts;
 }
 
-/// The cells of a level that overlap a region; a side of the region within a thousandth of a cell of a node is
-/// considered to be on it.
+/// The cells of a level that overlap a region; a side of the region that is within a thousandth of a cell width of a
+/// node counts as lying on this node.
 Box cellsWith(const Level& level, const FineRegion& region) {
   Box cells = level.cells();
   for (int d = 0; d < level.dimension(); ++d) {
@@ -147,7 +147,7 @@ void Grid::makePatches() {
     if (levels() > 1) rims_.push_back(rimsOf(*this, patch));
 }
 
-/// Whether the patch behind the upper face of `patch` owns the nodes of this face. This is not so if `patch` is no
+/// Whether the patch beyond the upper face of `patch` owns the nodes of this face. This is not so if `patch` is no
 /// thicker than the layers of nodes outside the grid at its lower side, because those nodes mirror the nodes of the
 /// face.
 bool Grid::sharesUpperFace(const Patch& patch, int kernelAxis) const {

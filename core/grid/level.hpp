@@ -113,7 +113,7 @@ class Level {
   /// The periodic images of the grid that contain cells of a box, as shifts in cells: cell c + shift is an image of c.
   /// The zero shift is among them if the box contains cells of the grid itself.
   std::vector<Index3> imagesOverlapping(const Box& cells) const;
-  /// The cell of the grid whose periodic image a given cell is.
+  /// The cell of the grid of which a given cell is a periodic image.
   template <int D>
   Index<D> wrapped(Index<D> cell) const {
     for (int d = 0; d < std::min(D, dimension()); ++d) {

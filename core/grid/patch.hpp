@@ -27,7 +27,7 @@ class Patch {
   bool isAtBoundary(int kernelAxis, int side) const;
   /// The patch's nodes on one of its sides.
   Box faceNodes(int kernelAxis, int side) const;
-  /// The nodes outside the grid behind one of the patch's sides.
+  /// The nodes outside the grid beyond one of the patch's sides.
   Box nodesBeyond(int kernelAxis, int side) const;
 
  private:

@@ -6,7 +6,7 @@ namespace tushar::grid {
 
 namespace {
 
-/// The cells behind a side of a patch, on the grid or its periodic images.
+/// The cells just beyond a side of a patch, on the grid or its periodic images.
 Box cellsBeyond(const Patch& patch, int axis, int side) {
   Box beyond = patch.cells();
   beyond.lower[axis] = side == 0 ? beyond.lower[axis] - 1 : beyond.upper[axis];

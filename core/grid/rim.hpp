@@ -13,7 +13,7 @@ class Grid;
 struct RimPiece {
   int axis, side;     ///< axis normal to the faces; side 0: lower faces of `cells`, 1: upper faces
   Box cells;          ///< cells of the patch that have these faces
-  int other;          ///< index of the patch behind the faces
+  int other;          ///< index of the patch beyond the faces
   Index3 shift;       ///< shift of the periodic image of `other` [cells of the coarser level]
   bool isFiner;       ///< whether the other level is the finer one
   std::size_t first;  ///< index of the first face among all rim faces of the patch

@@ -192,8 +192,8 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Declares, for the schemas of editors, the allowed content of the tags of the last declaration, which must be a
-  /// custom one; at least `atLeast` of these tags must be given in total.
+  /// Declares, for the schemas that editors use, what the tags of the last declaration may contain. The declaration
+  /// must be a custom one; at least `atLeast` of these tags must be given in total.
   Schema& forms(std::vector<TagForm> forms, int atLeast = 0) {
     setFormsOfLast(std::move(forms), atLeast);
     return *this;
@@ -217,14 +217,14 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Declares, for the schemas of editors, that one of the last `count` attributes must be given.
+  /// Declares, for the schemas that editors use, that one of the last `count` attributes must be given.
   Schema& oneOfLast(int count) {
     markAlternatives(count);
     return *this;
   }
 
-  /// Adds `sentence` to the error message for `word`, which is not an option of the last choice; it says where the word
-  /// is available.
+  /// Adds `sentence`, which says where the word is available, to the error message for `word`, which is not an option
+  /// of the last choice.
   Schema& elsewhere(std::string_view word, std::string_view sentence) {
     explainWordOfLast(word, sentence);
     return *this;

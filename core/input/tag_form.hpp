@@ -20,7 +20,7 @@ struct Alternative {
   std::vector<Demand> demands;
 };
 
-/// The allowed content of tags that a function reads. Used for the schemas of editors, not for reading.
+/// The allowed content of tags that a function reads. Used for the schemas that editors use, not for reading.
 struct TagForm {
   enum class Kind { anything, nothing, value, section };
 

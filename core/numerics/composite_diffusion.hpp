@@ -54,8 +54,8 @@ class CompositeDiffusion {
  private:
   const Diffusion<D>& on(int level) const { return ofLevels_[level]; }
 
-  /// Calls `visit` for the finer cells inside the cell `next` that touch the face between `next` and the cell before
-  /// it; seen from that cell, `next` lies on side `side` along axis d.
+  /// For a cell whose neighbour `next` on side `side` along axis d is refined, calls `visit` for the finer cells inside
+  /// `next` that touch the face between the two.
   template <class Visit>
   static void forEachFiner(const Index<D>& next, int d, int side, Visit&& visit) {
     for (int k = 0; k < (1 << D); ++k) {
@@ -65,7 +65,7 @@ class CompositeDiffusion {
     }
   }
 
-  /// Adds `factor` times the flux A F through the face between a cell and the coarser cell behind its side `side`.
+  /// Adds `factor` times the flux A F through the face between a cell and the coarser cell next to it on side `side`.
   void addRim(int level, const Index<D>& fine, int d, int side, double factor, Balance<D>& balance) const {
     const Diffusion<D>& diffusion = on(level);
     const grid::Level& here = grid_.level(level);

@@ -30,7 +30,7 @@ struct Balance {
   std::array<Index<D>, most> cells{};
   std::array<double, most> weights{};
   std::size_t count = 1;
-  std::vector<Far> far;  ///< cells behind faces at which the level ends; none on a single level
+  std::vector<Far> far;  ///< cells beyond faces at which the level ends; none on a single level
   double constant = 0;
 
   /// Adds `weight` to the weight of a cell.
@@ -73,7 +73,7 @@ class Diffusion {
     });
     return sum;
   }
-  /// The flux of phi through an inner face of the grid, for div(k grad phi), along the axis: -k d phi / dx.
+  /// The flux of phi along the axis through an interior face of the grid, for div(k grad phi): -k d phi / dx.
   double flux(const data::CellView<const double>& phi, const Index<D>& cell, int d, int side) const {
     const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
     const double outward = atFace(cell, next, true) * (phi[cell] - phi[next]) / level_.spacing(d);
@@ -125,7 +125,7 @@ class Diffusion {
     const double own = inCell(cell);
     return k_.isConstant() || !isInside ? own : harmonicMean(own, inCell(next));
   }
-  /// The value of phi in the cell outside a side of the grid for which phi satisfies the condition on the side.
+  /// The value that phi must have in the cell beyond a side of the grid to satisfy the condition on that side.
   double mirrored(double phi, const Index<D>& cell, int d, int side) const {
     const auto& given = sides_(d, side, cell);
     if (!given) return phi;

@@ -32,7 +32,7 @@ class LeafCells {
   const grid::Grid* grid_;
 };
 
-/// Interpolates a field along a face behind which there are finer cells. It uses a polynomial through cells of the
+/// Interpolates a field along a face that has finer cells on its other side. It uses a polynomial through cells of the
 /// coarser level, of second degree along each axis of the face, with the mixed term of these axes. Where a neighbour
 /// does not exist on this level, next to refined cells or at sides of the grid, cells on the opposite side are used
 /// instead.

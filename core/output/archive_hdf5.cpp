@@ -109,7 +109,8 @@ Handle typeIn(hid_t file, const std::string& dataset) {
 
 }  // namespace
 
-/// Returns a result of HDF5. Throws FileError if the result, or the disk behind it, reports a failure.
+/// Returns `result`, which a function of HDF5 has returned. Throws FileError if the result, or the disk behind it,
+/// reports a failure.
 template <class Result>
 Result Hdf5File::checked(Result result, const std::string& what) const {
   if (result >= 0 && failure_.error == 0) return result;

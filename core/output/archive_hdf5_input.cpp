@@ -38,7 +38,7 @@ std::string taken(char* characters) {
 
 }  // namespace
 
-/// Returns a result of HDF5. Throws FileError if it reports a failure.
+/// Returns `result`, which a function of HDF5 has returned. Throws FileError if it reports a failure.
 template <class Result>
 Result Hdf5Input::checked(Result result, const std::string& what) const {
   if (result >= 0) return result;

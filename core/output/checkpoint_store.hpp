@@ -26,7 +26,7 @@ class CheckpointStore {
   /// How a checkpoint is written.
   struct Pace {
     bool waitsForDisk = true;  ///< whether it is on the disk when write() returns
-    int lastOnDisk = -1;       ///< step of another checkpoint, which is kept unless the new one is on the disk
+    int lastOnDisk = -1;       ///< step of an earlier checkpoint, not removed if the new one is not yet on the disk
   };
 
   /// `cycle` is the number of checkpoints to keep, at least 1. No folder is made before the first write().

@@ -12,7 +12,7 @@ namespace tushar::report {
 /// those relative to a field that is 0 everywhere.
 ErrorNorms normsOf(const MeasuredError& error, const std::vector<double>& values);
 
-/// A message about the first norm that is not finite, because such a run has no valid errors; none if all are finite.
+/// If a norm is not finite, a message that the run has no valid errors, naming the first such norm; otherwise none.
 std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors);
 
 }  // namespace tushar::report

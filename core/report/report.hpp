@@ -69,7 +69,7 @@ struct Report {
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
   long cells = 0, particles = 0;
   long dropped = 0;            ///< number of particles that left the grid
-  long removed = 0;            ///< number of particles that could not be continued
+  long removed = 0;            ///< number of particles removed because they could not be advanced
   double spacing = 0;          ///< smallest cell width [m]
   int steps = 0, retries = 0;  ///< number of steps taken, and of steps undone and repeated
   std::vector<std::pair<std::string, int>>

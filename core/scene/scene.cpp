@@ -167,7 +167,7 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
-/// Refuses intervals that are too short for the times of the run to resolve.
+/// Refuses intervals that are no longer than the resolution of the times of the run.
 void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
                     Diagnostics& diagnostics) {
   if (const auto tag = section.child("outputInterval"))
@@ -177,7 +177,7 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
                   "attribute 'interval': ", diagnostics);
 }
 
-/// Refuses sampling intervals of analysis modules that are too short for the times of the run to resolve.
+/// Refuses sampling intervals of analysis modules that are no longer than the resolution of the times of the run.
 void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& modules, Diagnostics& diagnostics) {
   for (const ReadModule& module : modules)
     if (const auto tag = module.element.child("outputInterval"))

@@ -24,8 +24,8 @@ void describeSharedSections(std::ostream& out, const simulation::Catalogue& cata
 
 /// Reads the `Time` section.
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
-/// Reports an error at `element` if `interval` [s] is too short to be resolved at the times of the run; `what` precedes
-/// the message.
+/// Reports an error at `element` if `interval` [s] is no longer than the resolution of the times of the run, unless it
+/// is 0; `what` precedes the message.
 void checkInterval(double interval, const simulation::TimeSettings& time, const input::Element& element,
                    const std::string& what, input::Diagnostics& diagnostics);
 /// Reads the `DataArchiver` section.

@@ -21,7 +21,7 @@ using simulation::SectionForm;
 
 namespace {
 
-/// An empty structure for schemas of editors, which read no values.
+/// An empty structure for the schemas that editors use, which read no values.
 struct Unread {};
 
 /// Schemas that keep their addresses.

@@ -5,8 +5,8 @@
 
 namespace tushar::scene {
 
-/// The allowed content of a scene, for the schemas of editors: the forms of the outermost tag, one for each component
-/// and method.
+/// The allowed content of a scene, for the schemas that editors use: the forms of the outermost tag, one for each
+/// component and method.
 input::TagForm sceneForm(const simulation::Catalogue& catalogue);
 
 }  // namespace tushar::scene

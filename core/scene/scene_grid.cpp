@@ -39,7 +39,8 @@ Schema<FacesSection> facesTag(const Schema<FaceSection>& face, const std::vector
   return tags;
 }
 
-/// The tags of `<Grid>` that contain the tags of conditions; the latter must outlive this object.
+/// The schemas of `<Grid>` and of the tags in it that contain conditions; the schema `condition` must outlive this
+/// object.
 struct GridTags {
   explicit GridTags(const Schema<ConditionSection>& condition, const std::vector<simulation::SectionForm>& own)
       : face(faceTag(condition)),
@@ -57,7 +58,7 @@ struct GridTags {
   Schema<GridSection> grid;
 };
 
-/// The schema of `<Grid>` as it is read, for components with these own sections of conditions.
+/// The schema of `<Grid>` as it is read, for components that have the sections `own` for conditions.
 const Schema<GridSection>& gridSchema(const std::vector<simulation::SectionForm>& own = {}) {
   static std::map<std::vector<std::string>, GridTags> all;
   return all.try_emplace(namesOf(own), conditionSchema(), own).first->second.grid;

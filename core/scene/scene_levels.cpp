@@ -220,7 +220,8 @@ class Refiner {
       }
   }
 
-  /// The number of levels with cell-width ratio 2 that `levels` levels with the ratios of the scene need.
+  /// The number of levels, each with half the cell width of the previous one, that reach cells as fine as those of
+  /// `levels` levels with the ratios of the scene.
   int levelsOfTwos(int levels) {
     if (!amr_.ratios || amr_.ratios->empty()) return levels;
     int twos = 1;

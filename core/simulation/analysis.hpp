@@ -48,7 +48,7 @@ class Analysis {
   virtual std::string whyUnmeasured() const { return {}; }
   /// Variables that sample() needs, and their locations in the scene.
   virtual std::vector<SaveRequest> samples() const { return {}; }
-  /// The list of those samples() whose names may be Uintah's. When the scene is read, these names are replaced by
+  /// Those of samples() whose names may be Uintah's. When the scene is read, these names are replaced by
   /// Tushar's, and variables that no task computes are removed from the list. Null if there is no such list.
   virtual std::vector<SampledVariable>* variables() { return nullptr; }
   /// Pairs of names, Uintah's and Tushar's, for variables of this module that have another name in Uintah.

@@ -19,7 +19,7 @@ namespace tushar::simulation {
 /// Builds a component on a grid, with settings that have already been read from the scene.
 using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level&)>;
 
-/// A section that a component reads, for the schemas of editors.
+/// A section that a component reads, for the schemas that editors use.
 struct SectionForm {
   std::string name;
   const input::SchemaBase* schema = nullptr;  ///< schema of the section; null if it may contain anything

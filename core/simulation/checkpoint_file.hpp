@@ -30,7 +30,7 @@ struct CheckpointTarget {
 /// FileError on a rank that cannot write, and FailedElsewhere on the others.
 std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTarget& target);
 
-/// Restores a run from the checkpoint named in its problem: the variables, step and time, the number of dropped
+/// Restores a run from the checkpoint that its Problem names: the variables, step and time, the number of dropped
 /// particles, and the totals at the start. Throws InputError for a checkpoint of another format, step, component or
 /// grid, and DamageError if values have changed since the checkpoint was written. All ranks call it.
 void readCheckpoint(RunState& run);

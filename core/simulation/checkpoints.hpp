@@ -51,7 +51,7 @@ class Checkpoints {
   std::optional<CheckpointControl> control_;  ///< when checkpoints are due; empty if the scene has none
   int last_ = -1;                             ///< step of the checkpoint that was last written or read
   int on_disk_ = -1;                          ///< step of the last checkpoint that is known to be on the disk
-  Clock::time_point next_wait_;               ///< time from which the next checkpoint waits for the disk
+  Clock::time_point next_wait_;               ///< from then on, writing a checkpoint ends only when it is on the disk
   double seconds_ = 0, memory_ = 0;
   std::function<void(const std::string&)> warn_;
 };

@@ -24,9 +24,9 @@ class LevelSteps {
   /// The longest step of the coarsest level [s] such that each finer level is stable with two steps per step of the
   /// next coarser level, and the limit that determines this step.
   data::Minimum stable();
-  /// Advances the old state of all levels by the step of the coarsest level, `whole.delT`; the new state then has
-  /// stable time steps. If a task requests a smaller step, returns its factor and reason; in this case, and if a
-  /// NumericalError is thrown, the old state is restored.
+  /// Advances the old state of all levels by the step of the coarsest level, `whole.delT`, and finds the stable step of
+  /// each level for the new state. If a task requests a smaller step, returns its factor and reason; in this case, and
+  /// if a NumericalError is thrown, the old state is restored.
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
 
   /// Number of steps of each level in the latest step of the coarsest level; 0 for levels without cells.

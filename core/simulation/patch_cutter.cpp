@@ -17,7 +17,7 @@ namespace {
 /// Patches per worker. Few suffice, because the work is known, and each cut has a cost: the particles next to it are
 /// added to the nodes on both sides.
 constexpr int patchesPerWorker = 2;
-/// Load of the largest patch above which its worker may still be busy when the others are idle.
+/// If the load of the largest patch is at least this, its worker may still be busy when the others are idle.
 constexpr double heavy = 0.7;
 /// Factor by which other cuts must reduce the load.
 constexpr double worthwhile = 0.8;

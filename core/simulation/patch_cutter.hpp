@@ -55,7 +55,7 @@ class PatchCutter {
   bool may_cut_ = false;
   int steps_ = 0, times_ = 0;
   int waited_ = 0,
-      patience_ = 1;  ///< checks that found too large a patch since the last attempt, and their number before the next
+      patience_ = 1;  ///< checks since the last attempt that found too large a patch, and how many lead to the next one
 };
 
 }  // namespace tushar::simulation

@@ -80,7 +80,7 @@ class Phases {
   /// The diagnostics, followed by the task that marks cells to refine; empty if the grid does not change. Throws
   /// InputError for a criterion whose variable is not a cell variable.
   tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
-  /// Throws InputError for node variables that are saved, or sampled in parts of the grid.
+  /// For grids of several levels: throws InputError for node variables that are saved, or sampled in parts of the grid.
   void refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// The saved and sampled variables: diagnostics needed in every step, diagnostics needed at outputs, and the state.
   struct Wants {

@@ -30,7 +30,7 @@ class RunClock {
   void watch(const std::filesystem::path& folder) { files_.emplace(folder); }
   /// Reads the clock, and the requests received by any rank. Collective.
   void agree(const mpi::Communicator& ranks);
-  /// Time since the process started, when all ranks last read the clock [s].
+  /// Time from the start of the process to the latest moment at which all ranks read the clock [s].
   double elapsed() const { return elapsed_; }
   /// Whether an interrupt must end the run on all ranks.
   bool isInterrupted() const { return interrupted_; }

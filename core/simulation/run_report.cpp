@@ -137,8 +137,8 @@ void RunReport::addTasks(Report& report) {
 
 namespace {
 
-/// The largest momentum that the mass can have with the energy, sqrt(2 m E), a scale for drifts; 0 if either is
-/// unknown.
+/// The largest momentum that the total mass can have if its energy is the total energy, sqrt(2 m E), as a scale for
+/// drifts; 0 if the mass or the energy is unknown.
 double greatestMomentum(const Totals& totals, const std::vector<ConservedTotal>& kinds) {
   double mass = 0, energy = 0;
   for (std::size_t k = 0; k < totals.size(); ++k) {

@@ -72,7 +72,8 @@ class CellNumbering {
   int owned_ = 0;
   std::uint64_t first_ = 0;  ///< global index of the first of this rank's cells, on several levels
   std::vector<int> ghosts_;
-  /// Indices by position of the cell; on several levels, only indices of other ranks' cells, by global index.
+  /// The index of each cell that this rank uses, by its number on the level; on several levels, only those of other
+  /// ranks' cells, by their global index.
   std::unordered_map<std::uint64_t, int> numbers_;
   mutable std::optional<Run> last_;  ///< the run that was found last
 };

@@ -16,7 +16,7 @@ namespace tushar::tasks {
 struct BoundGhostFill {
   int variable;
   data::Generation generation;
-  data::Generation set;  ///< the particle set to which the values belong, or near whose particles the nodes are
+  data::Generation set;  ///< the particle set to which the values belong or, on nodes, from which they were computed
   bool particles;
 };
 

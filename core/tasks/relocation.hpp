@@ -18,7 +18,7 @@ namespace tushar::tasks {
 /// Numbers of particles that a run has lost.
 struct LostParticles {
   long left = 0;     ///< number that left through free faces of the grid, on this rank
-  long removed = 0;  ///< number removed because they could not be continued (`data::removed`), on all ranks
+  long removed = 0;  ///< number removed because they could not be advanced (`data::removed`), on all ranks
 
   LostParticles& operator+=(const LostParticles& other) {
     left += other.left;
@@ -196,7 +196,7 @@ class Relocation {
   /// Moves the particles that stay to their new indices, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
-  /// Whether a cell of the finest level is too close to coarser cells for a particle that comes from a patch.
+  /// Whether a cell of the finest level is too close to coarser cells for a particle that enters it from a given patch.
   bool isNearCoarser(const grid::Patch& from, const Index3& cell) const {
     return warehouse_->grid().levels() > 1 && isInOrNearCoarser(from, cell);
   }

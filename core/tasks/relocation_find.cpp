@@ -48,8 +48,8 @@ bool areInside(const Vec<D>* x, int count, const Vec<D>& lower, const Vec<D>& up
   return inside;
 }
 
-/// The cell that contains x along a kernel axis, as of Level::cellAlong: first seeks `cell`, which extends from `lower`
-/// to `upper`, and its neighbours.
+/// The cell that contains x along a kernel axis, as Level::cellAlong finds it, but first tries `cell`, which extends
+/// from `lower` to `upper`, and its neighbours.
 int cellNear(const grid::Level& level, int axis, int cell, double lower, double upper, double x) {
   if (x >= lower && x < upper) return cell;
   if (x >= upper && cell + 1 < level.cells().upper[axis] && x < level.nodePosition(axis, cell + 2)) return cell + 1;

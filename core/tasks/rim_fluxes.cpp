@@ -8,7 +8,7 @@ namespace tushar::tasks {
 
 namespace {
 
-/// The finer cell behind a face of a coarse cell that has the lowest index along the axes of the face.
+/// Of the finer cells beyond a face of a coarse cell, the one with the lowest index along the axes of the face.
 Index3 firstBehind(Index3 cell, const GhostCopy& copy, int dimension) {
   cell[copy.axis] += copy.side == 0 ? -1 : 1;
   cell = cell - copy.shift;
@@ -17,15 +17,15 @@ Index3 firstBehind(Index3 cell, const GhostCopy& copy, int dimension) {
   return cell;
 }
 
-/// The rim piece of a fine patch from which a copy is made; a single coarser patch is behind it.
+/// The rim piece of a fine patch from which a copy is made; a single coarser patch lies beyond it.
 const grid::RimPiece& pieceOf(const std::vector<grid::RimPiece>& pieces, const GhostCopy& copy, const Index3& behind) {
   return *std::find_if(pieces.begin(), pieces.end(), [&](const grid::RimPiece& one) {
     return !one.isFiner && one.axis == copy.axis && one.side != copy.side && one.cells.contains(behind);
   });
 }
 
-/// The finer faces behind those faces of a box of coarse cells that are normal to one axis: the fluxes behind the first
-/// coarse face, and the distances in memory between neighbouring finer faces along each axis.
+/// The finer faces that make up those faces of a box of coarse cells that are normal to one axis: the fluxes through
+/// the first finer face, and the distances in memory between neighbouring finer faces along each axis.
 struct FinerFaces {
   const double* first;
   std::array<std::ptrdiff_t, 3> strides;

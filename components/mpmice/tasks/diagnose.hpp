@@ -130,8 +130,8 @@ void findLeastFreeVolume(const Patch& patch, const GasInCells<D>& cells, Minimum
   });
 }
 
-/// Computes the smallest mass (for several gases, the smallest of any of them) and the smallest internal energy, minus
-/// that of p_inf, in any cell. Closed holes, which only keep their content, are included.
+/// Computes the smallest mass in any cell (for several gases, of any of them), and the smallest internal energy in any
+/// cell, less the part that p_inf contributes. Closed holes, which only keep their content, are included.
 template <int D>
 void findLeastContent(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& mass,
                       Minimum& heat) {

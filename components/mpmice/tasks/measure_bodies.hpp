@@ -7,8 +7,8 @@
 
 namespace tushar::mpmice {
 
-/// Number of layers of cells around a patch whose particles have boxes that may extend into the patch, before or after
-/// a step.
+/// Number of layers of cells around a patch in which particles may have boxes that extend into the patch, before or
+/// after a step.
 inline constexpr int boxReach = 2;
 
 /// Computes the edges of the box of each particle, from its initial size in cells, F, and its unburned fraction.
@@ -27,7 +27,7 @@ template <int D>
 struct Boxes {
   ParticleView<const Vec<D>> x, edges;
 
-  /// `reads` makes the accesses to the values, which are those at the start of a step, or those computed in it.
+  /// `reads` is readsOld for the values at the start of a step, or readsNew for those computed in it.
   static Boxes from(auto& take, auto reads) {
     return {.x = take(reads(p::x<D>, boxReach)), .edges = take(reads(p::boxEdges<D>, boxReach))};
   }
@@ -149,7 +149,7 @@ void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const Partic
   });
 }
 
-/// The position of a particle, limited to the distance from its starting cell within which patches read particles. The
+/// The position of a particle, clamped to the region around its starting cell within which patches read particles. The
 /// limits of the time step keep it closer.
 template <int D>
 Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {

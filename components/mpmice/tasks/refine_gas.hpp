@@ -31,7 +31,7 @@ struct ChangedGases {
   }
 };
 
-/// Replaces interpolated values of several gases in new cells where they are impossible.
+/// Replaces impossible values of several gases that were interpolated in new cells.
 template <int D>
 void mendNewGases(const Patch& patch, const std::vector<euler::Settings>& gases, const std::vector<Box>& newCells,
                   const euler::ChangedState<D>& state, const ChangedGases& held) {

@@ -125,8 +125,8 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
   });
 }
 
-/// Marks the cells that are piecewise constant, because a body is in them or next to them. Cells beyond the grid are
-/// like the nearest ones on it.
+/// Marks the cells in which the state has no slopes, because a body is in them or next to them. Cells beyond the grid
+/// are like the nearest ones on it.
 template <int D>
 class FlatCells {
  public:
@@ -152,7 +152,7 @@ class FlatCells {
   std::vector<std::uint8_t> is_flat_;
 };
 
-/// Returns whether a cell of a patch, or of two layers around it, is piecewise constant, as a function.
+/// Returns a function that tells whether a cell of a patch, or of two layers around it, has no slopes.
 template <int D>
 ice::IsFlat<D> flatAtBodies(const Patch& patch, const GasInCells<D>& cells) {
   return [flat = std::make_shared<const FlatCells<D>>(patch.level(), cells, patch.cells().grown(2, D))](
