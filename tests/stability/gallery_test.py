@@ -19,8 +19,9 @@ from tushar.studies.stability import Gallery, is_stable, judge, scene_of, write_
 
 FATAL = ("toro_2", "toro_4", "toro_5", "leblanc", "ratio_1e6")  # for the paper's method
 SENTENCE = re.compile(r"p\.(?:density|internalEnergy) became -\S+ \S+ \(was \S+\), but must be "
-                      r"(?:greater than|at least) 0: particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* (?:is|are) out of bounds "
-                      r"\(task \S+, patch 0, material gas, step (\d+), time \S+ s, time step \S+ s\)")
+                      r"(?:greater than|at least) 0: particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* "
+                      r"(?:is|are) out of bounds \(task \S+, patch 0, material gas, step (\d+), "
+                      r"time \S+ s, time step \S+ s\)")
 
 
 def case_of(name):
