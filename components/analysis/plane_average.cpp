@@ -36,7 +36,7 @@ void checkWeight(const AverageSettings& read, const input::Element& module, inpu
 
 const input::Schema<AverageSettings>& averageSchema() {
   static const input::Schema<Weight> weight =
-      input::Schema<Weight>("weight", "The variable by whose sum those with weighting=\"mass\" are divided.")
+      input::Schema<Weight>("weight", "The variable whose sum divides the sums of variables with weighting=\"mass\".")
           .location(&Weight::where, "label")
           .requiredAttribute("label", &Weight::label, "1", "a cell variable, such as c.density");
   static const input::Schema<AverageSettings> schema =
@@ -48,7 +48,7 @@ const input::Schema<AverageSettings>& averageSchema() {
           .requiredChoice("planeOrientation", &AverageSettings::axis, {{"YZ", 0}, {"XZ", 1}, {"XY", 2}},
                           "the axes along which the planes lie")
           .section("weight", &AverageSettings::weight, weight,
-                   "the variable by whose sum those with weighting=\"mass\" are divided")
+                   "the variable whose sum divides the sums of variables with weighting=\"mass\"")
           .check(checkWeight);
   return schema;
 }

@@ -45,9 +45,8 @@ simulation::ComponentKind kind() {
                input::atMost(1))
         .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime())
         .value("refinement_tolerance", &Settings::refinementTolerance, 0, "K",
-               "error of linear interpolation between cells above which an adaptive grid refines them; 0: only a "
-               "<Variable> "
-               "of <AMR> refines them",
+               "an adaptive grid refines cells where the error of linear interpolation between them exceeds this "
+               "value; 0: only a <Variable> of <AMR> refines them",
                input::nonNegative());
     input::refuseOtherValues(section, "time_integrator", {"explicit"},
                              "for implicit steps, use <SimulationComponent type=\"implicit_heat\"/>");

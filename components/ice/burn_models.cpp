@@ -88,7 +88,8 @@ void addInduction(Schema<DdtSection>& tags) {
   tags.value("useInductionTime", &DdtSection::waits, false, "1",
              "a cell burns only after the time that a flame takes to cross it")
       .value("IgnitionConst", of(&Induction::inwards), 1, "1",
-             "time that a flame takes into the body, divided by its time along a surface", input::nonNegative())
+             "time that a flame takes to cross a cell into the body, divided by its time along a surface",
+             input::nonNegative())
       .value("PressureShift", of(&Induction::pressure), 1, "Pa", "p_0 in F_b (p / p_0)^F_c, the speed along a surface",
              input::positive())
       .value("PreexpoConst", of(&Induction::speed), 1, "m/s", "F_b", input::positive())
@@ -116,7 +117,7 @@ const Schema<DdtSection>& ddtSchema() {
     for (const char* tag : {"G", "b", "E0"}) tags.ignored(tag, "belongs to the detonation, which ends the run");
     addInduction(tags);
     tags.value("useCrackModel", &DdtSection::burnsCracks, false, "1",
-               "gas burns in cracks that it can enter at its pressure: p^2.84 p.crackRad^2 > 8e8");
+               "whether the body also burns in cracks that the gas can enter: p^2.84 p.crackRad^2 > 8e8");
     for (const char* tag : {"Gcrack", "nCrack", "CrackVolThreshold", "rho0"})
       tags.ignored(tag, "Uintah does not use it either");
     input::noteTag(tags, "adjust_IO_intervals", "outputs and checkpoints keep their intervals");

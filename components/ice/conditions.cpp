@@ -30,7 +30,8 @@ const Schema<WavesSection>& wavesSchema() {
     tags.required("press_infinity", &WavesSection::farPressure, "Pa",
                   "far-field pressure, towards which the pressure of the gas relaxes", input::positive())
         .value("sigma", &WavesSection::sigma, 0.27, "1",
-               "the pressure relaxes at the rate sigma (1 - M^2) c over the grid's length", input::nonNegative())
+               "the pressure relaxes at the rate sigma (1 - M^2) c / L, where L is the length of the grid",
+               input::nonNegative())
         .ignored("material", "all gases have one velocity and one pressure")
         .ignored("Li_scale", "waves are not scaled");
     return tags;

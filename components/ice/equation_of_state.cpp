@@ -112,7 +112,7 @@ const Schema<TstTags>& tstSchema() {
           .required("b", &TstTags::b, "m^3/kg", "volume of the molecules", input::nonNegative())
           .required("u", &TstTags::u, "1", "u, more than -1", input::greaterThan(-1))
           .required("w", &TstTags::w, "1", "w, more than -1", input::greaterThan(-1))
-          .required("Gamma", &TstTags::gamma, "1", "ratio of the specific heats of the thin gas",
+          .required("Gamma", &TstTags::gamma, "1", "ratio of the specific heats of the dilute gas",
                     input::greaterThan(1));
   return schema;
 }

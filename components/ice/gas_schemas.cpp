@@ -137,8 +137,8 @@ const Schema<IceSection>& iceSchema() {
                "steps are explicit, even if there is an <ImplicitSolver>")
         .ours()
         .optional("thin_walls", &IceSection::thinWalls, "1",
-                  "true: even bodies thinner than a cell block the gas, but oblique walls are rougher; false: bodies "
-                  "thinner than 1.25 cells leak")
+                  "true: bodies block the gas even if thinner than a cell, but oblique walls are rougher; false: "
+                  "bodies thinner than 1.25 cells leak")
         .ours()
         .section("ImplicitSolver", &IceSection::implicit, implicitSchema(),
                  "the pressure is implicit, so that the speed of sound does not limit the steps; <explicit> switches "
@@ -190,7 +190,7 @@ const Schema<AirSection>& airSchema() {
       Schema<AirSection>("SpecificHeatModel", "A c_v that depends on the temperature.")
           .location(&AirSection::where)
           .requiredChoiceAttribute("type", &AirSection::type, {{"airNasa", "airNasa"}},
-                                   "that of 1 mol of O2 with 3.76 mol of N2 by polynomials of NASA, 200 to 3500 K")
+                                   "that of 1 mol of O2 with 3.76 mol of N2 by the NASA polynomials, 200 to 3500 K")
           .optional("gas_constant", &AirSection::gasConstant, "J/(kg K)", "R; by default (gamma - 1) specific_heat",
                     input::positive());
   return schema;

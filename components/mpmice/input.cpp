@@ -86,7 +86,7 @@ void checkMomentum(const ice::GasScene& scene, int solids, bool areRigid, const 
     if (k >= walls || (areRigid && k == 0)) return;
     diagnostics.error(tag.child("momentum").value_or(tag),
                       fmt::format("{:g} between body {} and the gas is not available: bodies are walls to the gas; "
-                                  "give {:g} or more, which stops it within a cell",
+                                  "give {:g} or more, which stops the gas within a cell",
                                   k, body, walls));
   });
   if (solids > 1)
@@ -218,7 +218,7 @@ bool needsNoImplicitSteps(const ice::GasScene& scene, const std::vector<mpm::sol
   const Element section = *root.child("CFD")->child("ICE")->child("ImplicitSolver");
   if (section.child("Solver") || !areBodiesMuchFaster(materials, scene.gas)) return false;
   diagnostics.note(section, fmt::format("does nothing: steps are explicit, since waves in bodies, at {:.3g} m/s, limit "
-                                        "them to less than sound in the gas does; add a <Solver> to keep it",
+                                        "them more than sound in the gas does; add a <Solver> for implicit steps",
                                         fastestInBodies(materials)));
   return true;
 }

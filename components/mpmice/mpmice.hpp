@@ -82,7 +82,7 @@ class MpmIce : public Component {
   void scheduleErrorEstimate(TaskList& tasks) const override { gas_->scheduleErrorEstimate(tasks); }
   void scheduleRefine(TaskList& tasks) const override { gas_->scheduleRefine(tasks); }
   std::string whyOneLevel() const override {
-    if (gas_->waitsForFlames()) return "useInductionTime counts the time in cells of one level; set it to false";
+    if (gas_->waitsForFlames()) return "useInductionTime is not available on several levels; set it to false";
     return gas_->isImplicit() ? ice::pressureOnOneLevel : solids_->whyOneLevel();
   }
   std::string advice() const override { return "a smaller CFD/cfl, or more particles per cell along surfaces (res)"; }

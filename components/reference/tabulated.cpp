@@ -116,14 +116,14 @@ GasState Tabulated::sum(const std::vector<Share>& x, const std::vector<Share>& y
 
 GasState Tabulated::at(const Vec3& x, double t) const {
   if (!holdsAt(t))
-    throw std::domain_error(fmt::format("The table is for t = {:g} s, not at t = {:g} s.", table_.time, t));
+    throw std::domain_error(fmt::format("The table is for t = {:g} s, not for t = {:g} s.", table_.time, t));
   return sum(between(0, x[0]), between(1, x[1]), between(2, x[2]));
 }
 
 GasState Tabulated::average(const Vec3& lower, const Vec3& upper, double t) const {
   checkBox(lower, upper);
   if (!holdsAt(t))
-    throw std::domain_error(fmt::format("The table is for t = {:g} s, not at t = {:g} s.", table_.time, t));
+    throw std::domain_error(fmt::format("The table is for t = {:g} s, not for t = {:g} s.", table_.time, t));
   return sum(overlaps(0, lower[0], upper[0]), overlaps(1, lower[1], upper[1]), overlaps(2, lower[2], upper[2]));
 }
 

@@ -141,7 +141,7 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
     }
     const auto name = child.attribute("name");
     if (!name)
-      diagnostics.error(child, "the attribute name is missing; there are " + allOf(catalogue.analysisNames()));
+      diagnostics.error(child, "missing attribute 'name'; available: " + allOf(catalogue.analysisNames()));
     else if (const std::string problem = input::choiceProblem(*name, catalogue.analysisNames()); !problem.empty())
       diagnostics.error(child.whereOf("name"), child.path(), "name: " + problem);
     else if (loads)

@@ -103,7 +103,7 @@ const Schema<VariableTag>& variableSchema() {
                              "a cell variable, such as c.density; or particles, without other attributes, since the "
                              "finest level always follows them")
           .optionalAttribute("value", &VariableTag::refine, "1",
-                             "cells are refined where the indicator is above this or, for type below, is below it; "
+                             "cells are refined where the indicator is above this or, with type=\"below\", below it; "
                              "required, except for particles")
           .attributeValue("matl", &VariableTag::material, "all", "1", "name or index of the material, or all")
           .choiceAttribute(
@@ -119,8 +119,8 @@ const Schema<VariableTag>& variableSchema() {
               "gradient: in the unit of the variable per m, as in Uintah; above, below: the value itself")
           .ours()
           .optionalAttribute("coarsen", &VariableTag::coarsen, "1",
-                             "cells are not coarsened where the indicator is above this or, for type below, is below "
-                             "it; half of value by default")
+                             "cells are not coarsened where the indicator is above this or, with type=\"below\", "
+                             "below it; half of value by default")
           .ours()
           .check(checkThresholds);
   return schema;

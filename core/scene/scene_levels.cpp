@@ -48,7 +48,7 @@ const Schema<GridBox>& boxSchema() {
 const Schema<LevelSection>& levelSchema() {
   static const Schema<LevelSection> schema =
       Schema<LevelSection>(
-          "Level", "A grid of cells of one size; in boxes of a further Level, cells are at most as wide as its own.")
+          "Level", "Cells of one size: the whole grid or, for a further Level, boxes in which no cell is wider.")
           .list("Box", &LevelSection::boxes, boxSchema(),
                 "the box that is divided into cells; further Levels may have any number of boxes, each enlarged to "
                 "whole blocks (see AMR/Regridder/min_patch_size)",

@@ -40,7 +40,8 @@ const Schema<TimeSettings>& timeSchema() {
           .value("delt_min", &TimeSettings::deltMin, 0, "s", "smallest time step", input::nonNegative())
           .value("delt_max", &TimeSettings::deltMax, unlimited, "s", "largest time step; 0 means no limit",
                  input::nonNegative())
-          .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "largest first time step", input::positive())
+          .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "upper limit of the first time step",
+                 input::positive())
           .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
                  "largest relative growth of the time step from one step to the next; 0 or less means no limit")
           .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",

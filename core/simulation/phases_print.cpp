@@ -13,8 +13,8 @@ void Phases::printSchedule(std::ostream& out) const {
     graph->printLeftOut(out);
   }
   if (!refluxing.tasks().empty()) {
-    out << "each level takes computeStableTimeStep and timeAdvance separately, with about two steps for each step\n"
-           "of the next coarser level, which then takes:\n";
+    out << "each level runs computeStableTimeStep and timeAdvance separately, with about two steps for each step\n"
+           "of the next coarser level, which then runs:\n";
     refluxing.print(out);
   }
   for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report, &refinement, &refined})

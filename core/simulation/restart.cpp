@@ -56,7 +56,7 @@ void refuseDamaged(const Restart& restart, const mpi::Communicator& ranks) {
 }
 
 std::string listedSteps(const std::vector<int>& steps) {
-  return fmt::format("there {} {}", steps.size() == 1 ? "is that of step" : "are those of steps", joined(steps, ", "));
+  return fmt::format("available: step{} {}", steps.size() == 1 ? "" : "s", joined(steps, ", "));
 }
 
 std::string continuesFrom(const Restart& restart) {

@@ -38,7 +38,7 @@ void noteDamage(Restart& restart, const std::string& damage);
 bool takeNext(Restart& restart, const mpi::Communicator& ranks);
 /// Throws InputError on the first rank, with all notes, and FailedElsewhere on the others.
 [[noreturn]] void refuseDamaged(const Restart& restart, const mpi::Communicator& ranks);
-/// The steps of checkpoints in words: `there are those of steps 4, 6`.
+/// The steps of checkpoints in words: `available: steps 4, 6`.
 std::string listedSteps(const std::vector<int>& steps);
 /// The notes, followed by the sentence that names the checkpoint in use.
 std::string continuesFrom(const Restart& restart);

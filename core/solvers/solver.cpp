@@ -72,9 +72,9 @@ std::string historyOf(const std::vector<double>& residuals) {
 
 std::string sentenceOf(const std::string& what, const Outcome& outcome) {
   std::string sentence =
-      fmt::format("{} did not converge: {} in {}", what, outcome.reason, historyOf(outcome.residuals));
+      fmt::format("{} did not converge: {}, after {}", what, outcome.reason, historyOf(outcome.residuals));
   if (!outcome.krylovResiduals.empty())
-    sentence += fmt::format("; those of the last linear solve, {}", historyOf(outcome.krylovResiduals));
+    sentence += fmt::format("; last linear solve: {}", historyOf(outcome.krylovResiduals));
   return sentence;
 }
 

@@ -175,7 +175,7 @@ class Search {
     const std::string now =
         said(isHere() ? textOf(numbers(Generation::fresh, found_.patch, place_), label_.components) : "");
     std::string text = fmt::format("{} became {} {}", label_.name, now, label_.unit);
-    if (!before.empty()) text += fmt::format(" from {}", before);
+    if (!before.empty()) text += fmt::format(" (was {})", before);
     return text + fmt::format(", but must be {}", data::textOf(bound_));
   }
   std::string howMany(const char* what) const {

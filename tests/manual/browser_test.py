@@ -20,7 +20,7 @@ SAMPLE = ("index.html", "gallery/index.html", "gallery/solid-two_discs.html", "r
           "tutorials/own_material.html")
 MESSAGES = ("a.ups:3:4: Time: unknown tag <maxTimes> in <Time> (did you mean 'maxTime'?)",
             "found 'abc', expected a number",
-            "sus: p.density became -1 kg/m^3 from 1, but must be greater than 0: particle 3", "nonsense")
+            "sus: p.density became -1 kg/m^3 (was 1), but must be greater than 0: particle 3", "nonsense")
 MEASURE = """<!doctype html><body><pre id="out"></pre><script>
 const urls = %s, frame = document.createElement("iframe"), out = document.getElementById("out");
 let at = 0;

@@ -110,7 +110,7 @@ class Crash(unittest.TestCase):
                             "sus runs a scene)")
         assert_refused(here.path, "this is not a .uda folder: it has neither index.xml nor checkpoints")
         assert_refused(bare.uda, "there are no checkpoints; <checkpoint .../> in <DataArchiver> requests them")
-        assert_refused(here.uda, "there is no checkpoint of step 50; there are those of steps 0, 100, 200, 218",
+        assert_refused(here.uda, "there is no checkpoint of step 50; available: steps 0, 100, 200, 218",
                        options=("-t", "50"))
         assert_refused(here.uda, "the checkpoint has a different grid from the scene; a restart may change patches, "
                                  "but not cells",

@@ -179,8 +179,8 @@ class Implicit(SceneTest):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)
         self.assertRegex(result.err, r"Newton's method did not converge: more iterations than allowed "
-                                     r"\(DIVERGED_MAX_IT\) in 1 iteration; residuals \S+, \S+; the largest residual "
-                                     r"is at the node at \(")
+                                     r"\(DIVERGED_MAX_IT\), after 1 iteration; residuals \S+, \S+; the largest "
+                                     r"residual is at the node at \(")
         self.assertIn("try a smaller <delt_init>", result.err)
 
     def test_a_failed_linear_solve_tells_its_own_history_too(self):
@@ -188,7 +188,7 @@ class Implicit(SceneTest):
                      "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)
         self.assertRegex(result.err, r"Newton's method did not converge: a linear solve failed, more iterations than "
-                                     r"allowed \(DIVERGED_ITS\) in .*; those of the last linear solve, 3 iterations; "
+                                     r"allowed \(DIVERGED_ITS\), after .*; last linear solve: 3 iterations; "
                                      r"residuals \S+, ")
         self.assertIn("more <maxiterations>", result.err)
 

@@ -49,8 +49,8 @@ class Paper(unittest.TestCase):
         bare.write_text(text[:start] + text[end:])
         died = run(bare)
         self.assertEqual(died.code, 4)
-        self.assertRegex(died.err, r"p\.density became -\S+ kg/m\^3 from \S+, but must be greater than 0: particle \d+ "
-                                   r"in cell \(81\) at x = 0\.405\S+ m; around it: none in its cell, none in cell "
+        self.assertRegex(died.err, r"p\.density became -\S+ kg/m\^3 \(was \S+\), but must be greater than 0: particle "
+                                   r"\d+ in cell \(81\) at x = 0\.405\S+ m; around it: none in its cell, none in cell "
                                    r"\(80\), .*task mpm::updateParticles, patch 0, material gas, step 351, time 0\.18.*"
                                    r"the last complete step, 350 at t = 0\.18")
         self.assertIn("try a smaller <cfl>", died.err)

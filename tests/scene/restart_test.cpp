@@ -106,7 +106,7 @@ TEST(Restart, RefusesADamagedCheckpointThatIsAskedForAndSaysWhichThereAre) {
     findRestart(archive.string(), 6);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("t00006 is damaged: manifest is missing; there are those of steps 4, 6"),
+    EXPECT_NE(std::string(error.what()).find("t00006 is damaged: manifest is missing; available: steps 4, 6"),
               std::string::npos)
         << error.what();
   }

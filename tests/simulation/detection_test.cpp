@@ -97,7 +97,7 @@ TEST(Detection, NamesTheValueTheParticleThePlaceAndTheStepOnAnyPatches) {
     const Planted planted{value, static_cast<ParticleId>(cell) << 16, 0.1};
     const std::string number = std::isnan(value) ? "nan" : "-0.5";
     const std::regex expected(
-        "p\\.internalEnergy became " + number + " J/kg from \\S+, but must be at least 0: particle " +
+        "p\\.internalEnergy became " + number + " J/kg \\(was \\S+\\), but must be at least 0: particle " +
         std::to_string(planted.id) +
         " in cell \\(\\d+\\) at x = 0\\.\\d+ m; around it: .* in its cell, .* in cell \\(\\d+\\).*; 1 of \\d+ "
         "particles is out of bounds \\(task spoil, patch \\*, material gas, step \\d+, time 0\\.10\\d* s, time step "

@@ -34,8 +34,8 @@ class Loading(unittest.TestCase):
         result = run("ups/poisson/sine.ups", options=("--quiet", "-petsc", "-ksp_max_it 1"))
         self.assertEqual(result.code, 4)
         self.assertRegex(result.err, r"Poisson's equation did not converge: more iterations than allowed "
-                                     r"\(DIVERGED_ITS\) in 1 iteration; residuals \S+, \S+; the largest residual is "
-                                     r"in the cell at \(")
+                                     r"\(DIVERGED_ITS\), after 1 iteration; residuals \S+, \S+; the largest residual "
+                                     r"is in the cell at \(")
 
     def test_options_that_no_solve_looks_at_are_named_at_the_end(self):
         result = run("ups/poisson/sine.ups", "Poisson/Solver/petsc=-ksp_mxa_it 5",

@@ -18,9 +18,10 @@ from tushar.program import run_scene
 from tushar.studies.stability import Gallery, is_stable, judge, scene_of, write_scene
 
 FATAL = ("toro_2", "toro_4", "toro_5", "leblanc", "ratio_1e6")  # for the paper's method
-SENTENCE = re.compile(r"p\.(?:density|internalEnergy) became -\S+ \S+ from \S+, but must be (?:greater than|at least) "
-                      r"0: particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* (?:is|are) out of bounds "
-                      r"\(task \S+, patch 0, material gas, step (\d+), time \S+ s, time step \S+ s\)")
+SENTENCE = re.compile(r"p\.(?:density|internalEnergy) became -\S+ \S+ \(was \S+\), but must be "
+                      r"(?:greater than|at least) 0: particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* "
+                      r"(?:is|are) out of bounds \(task \S+, patch 0, material gas, step (\d+), "
+                      r"time \S+ s, time step \S+ s\)")
 
 
 def case_of(name):

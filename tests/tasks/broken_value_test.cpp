@@ -172,7 +172,7 @@ TEST(BrokenValue, SaysWhichParticleWhereWhenAndWhatIsAroundIt) {
     for (const bool relocated : {false, true})
       EXPECT_EQ(
           planted<1>(test::domain({{8, 1, 1}}, {{patches, 1, 1}}), {{7, -0.5}, {9, nan}}, relocated),
-          "p.density became -0.5 kg/m^3 from 1.07, but must be greater than 0: particle 7 in cell (3) at x = 0.46875 "
+          "p.density became -0.5 kg/m^3 (was 1.07), but must be greater than 0: particle 7 in cell (3) at x = 0.46875 "
           "m; around it: 2 in its cell, 2, 2 in cell (2), 2, nan in cell (4); 2 of 16 particles are out of bounds "
           "(task "
           "plant, patch *, material gas, step 7, time 0.5 s)");
@@ -182,7 +182,7 @@ TEST(BrokenValue, NamesAPlantedParticleOnAnyLayoutInTwoAndThreeDimensions) {
   for (const ParticleId id : {0u, 13u, 40u, 83u}) {
     const std::string reference = planted<2>(test::domain({{7, 6, 1}}), {{id, nan}}, true);
     EXPECT_NE(reference.find(
-                  fmt::format("p.density became nan kg/m^3 from {:.6g}, but must be greater than 0: particle {} in",
+                  fmt::format("p.density became nan kg/m^3 (was {:.6g}), but must be greater than 0: particle {} in",
                               1 + 0.01 * static_cast<double>(id), id)),
               std::string::npos)
         << reference;
@@ -206,12 +206,12 @@ TEST(BrokenValue, SaysWhichCellOrNode) {
     for (const double value : {-2.0, -std::numeric_limits<double>::infinity()}) {
       const grid::Domain tube = test::domain({{5, 1, 1}}, {{patches, 1, 1}});
       EXPECT_EQ(plantedOnGrid<1>(tube, heat, Index<1>{{4}}, value),
-                fmt::format("c.heat became {} J from 1, but must be at least 0: cell (4) at x = 0.9 m; around it: 3 in "
-                            "cell (3); 1 of 5 cells is out of bounds (task plant, patch *, step 7, time 0.5 s)",
+                fmt::format("c.heat became {} J (was 1), but must be at least 0: cell (4) at x = 0.9 m; around it: 3 "
+                            "in cell (3); 1 of 5 cells is out of bounds (task plant, patch *, step 7, time 0.5 s)",
                             value));
       EXPECT_EQ(
           plantedOnGrid<1>(tube, mass, Index<1>{{2}}, value),
-          fmt::format("g.mass became {} kg from 1, but must be at least 0: node (2) at x = 0.4 m; around it: 3 in "
+          fmt::format("g.mass became {} kg (was 1), but must be at least 0: node (2) at x = 0.4 m; around it: 3 in "
                       "node (1), 3 in node (3); 1 of 6 nodes is out of bounds (task plant, patch *, step 7, time "
                       "0.5 s)",
                       value));
@@ -222,7 +222,7 @@ TEST(BrokenValue, SaysWhereInTwoDimensions) {
   for (const Index3& patches : {Index3{{1, 1, 1}}, Index3{{2, 3, 1}}})
     EXPECT_EQ(
         plantedOnGrid<2>(test::domain({{5, 3, 1}}, patches), mass, Index<2>{{0, 1}}, nan),
-        "g.mass became nan kg from 1, but must be at least 0: node (0, 1) at x = (0, 0.2) m; around it: 3 in node (1, "
+        "g.mass became nan kg (was 1), but must be at least 0: node (0, 1) at x = (0, 0.2) m; around it: 3 in node (1, "
         "1), 3 in node (0, 0), 3 in node (0, 2); 1 of 24 nodes is out of bounds (task plant, patch *, step 7, time "
         "0.5 s)");
 }

@@ -249,7 +249,7 @@ TEST(Relocation, RefusesToLetParticlesThroughASymmetryPlaneOrToNowhere) {
       "material gas, step 7, time 0.5 s)");
   EXPECT_EQ(
       shifted(std::nan(""), false, dropped),
-      "p.x became nan m from 0, but must be finite: particle 0 in cell (0) at x = 0 m; around it: nan, nan in its "
+      "p.x became nan m (was 0), but must be finite: particle 0 in cell (0) at x = 0 m; around it: nan, nan in its "
       "cell, nan, nan, nan in cell (1); 24 of 24 particles are out of bounds; patch 0 (task relocate, material gas, "
       "step "
       "7, time 0.5 s)");

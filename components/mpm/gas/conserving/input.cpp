@@ -50,7 +50,7 @@ const Schema<Section>& sectionSchema() {
           .section("artificial_viscosity", &Section::viscosity, viscosity)
           .ours()
           .value("artificial_heat_conduction", &Section::heatConduction, 0, "1",
-                 "C_h of the heat flow C_h rho h |dv/dx| de/dx h in compressed cells (Noh 1987); 1 removes wall "
+                 "C_h of the heat flow C_h rho h^2 |dv/dx| de/dx in compressed cells (Noh 1987); 1 removes wall "
                  "heating",
                  input::between(0, 1))
           .ours()

@@ -23,7 +23,7 @@ inline constexpr ParticleLabel<double> affineEnergy{
 namespace g {
 using namespace gas::g;
 inline constexpr NodeLabel<double> relaxation{
-    "g.relaxation", "1", "fraction of the node's velocity that particles take directly, rather than its change"};
+    "g.relaxation", "1", "fraction of PIC in the velocity that the node gives to particles; the rest is FLIP"};
 }  // namespace g
 
 namespace c {

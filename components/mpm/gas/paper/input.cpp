@@ -55,7 +55,7 @@ const Schema<GasDynamics>& methodSchema() {
           .section("artificial_viscosity", &GasDynamics::viscosity, viscosity)
           .ours()
           .value("density_filter", &GasDynamics::densityFilter, true, "1",
-                 "smooth extrema of the cells' density, equation (18) of the paper")
+                 "whether extrema of the cells' density are smoothed, equation (18) of the paper")
           .ours()
           .choice("volume_model", &GasDynamics::volumeModel,
                   {{"cell_share", VolumeModel::cellShare}, {"tracked", VolumeModel::tracked}}, VolumeModel::cellShare,

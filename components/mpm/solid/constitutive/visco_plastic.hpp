@@ -155,7 +155,7 @@ struct ViscoPlastic {
     refuseSwitch(tags, "coeff_thermal_expansion", "the material does not expand with temperature");
     refuseSwitch(tags, "failure_variable_std", "all particles fail at the same stress or strain");
     refuseSwitch(tags, "remove_particles", "failed particles are kept");
-    refuseTypes(tags, "stability_check", {"none"}, "only none is allowed: it has no effect in Uintah");
+    refuseTypes(tags, "stability_check", {"none"}, "only the type none is allowed: the tag has no effect in Uintah");
     tags.ignored("failure_variable_distrib", "all particles fail at the same stress or strain")
         .ignored("tolerance", "small strain rates are not rounded to 0")
         .ignored("use_polar_decomposition_RMB", "the rotation is exact to round-off")

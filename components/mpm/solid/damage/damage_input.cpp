@@ -185,7 +185,9 @@ const Schema<Erosion>& erosionSchema() {
                {"ZeroStress", Algorithm::zeroStress},
                {"AllowNoShear", Algorithm::allowNoShear},
                {"PreserveStress", Algorithm::preserveStress}},
-              "a failed particle bears only pressure, no stress, or only mean stress, or is merely marked")
+              "what a failed particle bears: only pressure (AllowNoTension), no stress (ZeroStress), only mean stress "
+              "(AllowNoShear), or all stress (PreserveStress, and none, with which only a <damage_model> makes "
+              "particles fail)")
           .value("char_time", &Erosion::relaxationTime, 1e-99, "s", "time in which the lost stress decays to 1/e",
                  input::positive());
   return schema;
@@ -223,8 +225,8 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
   if (check && check->attribute("type") != "none" && yield && yield->attribute("type") == "gurson")
     diagnostics.error(*check,
                       fmt::format("<erosion> on line {} acts after a loss of stability, which is not detected with "
-                                  "yield_condition gurson; give the stability_check type none, and the particles a "
-                                  "<damage_model>",
+                                  "yield_condition gurson; set the type of the stability_check to none, and give the "
+                                  "material a <damage_model>",
                                   erosion.where().line));
 }
 

@@ -133,7 +133,7 @@ void addSurroundings(Schema<MpmSection>& mpm) {
       .value("use_CBDI_boundary_condition", &MpmSection::loadsAtCorners, false, "1",
              "pressures act at the corners of the faces of particles, whose area changes with F (Sadeghirad, Brannon & "
              "Guilkey 2013). As in Uintah, no pressure acts on particles without a face within 26 degrees of the "
-             "surface, and a <torque> acts only where a pressure acts, with four times its value")
+             "surface, and a <torque> is four times as large as given, and acts only where a pressure acts")
       .value(
           "keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
           "whether pressures rotate with the particles on which they act; otherwise they keep their initial direction")

@@ -157,7 +157,7 @@ const Schema<PhysicalBC>& loadsSchema() {
     Schema<LoadsSection> loads("MPM", "Loads on particles.");
     loads.list("pressure", &LoadsSection::pressures, pressure, "force per area on a surface")
         .list("torque", &LoadsSection::torques, torque,
-              "torque, N m; a positive one turns a right-handed screw from the top of the cylinder to its bottom, as "
+              "torque, N m; a positive one drives a right-handed screw from the top of the cylinder to its bottom, as "
               "in Uintah")
         .list("heat_flux", &LoadsSection::heatFluxes, heatFlux,
               "heat per area and time into the body through a surface")

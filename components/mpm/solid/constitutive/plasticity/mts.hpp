@@ -53,7 +53,7 @@ struct MechanicalThreshold {
     input::Schema<Self> tags("flow_model", "The mechanical threshold stress of Follansbee and Kocks.");
     tags.required("sigma_a", &Self::athermal, "Pa", "part without thermal activation", input::nonNegative())
         .required("mu_0", &Self::shearModulus, "Pa", "shear modulus at 0 K", input::positive())
-        .required("koverbcubed", &Self::boltzmann, "Pa/K", "Boltzmann's constant over Burgers' vector cubed",
+        .required("koverbcubed", &Self::boltzmann, "Pa/K", "Boltzmann's constant divided by the Burgers vector cubed",
                   input::positive())
         .required("g_0i", &Self::energyI, "1", "activation energy for interstitial obstacles", input::nonNegative())
         .required("g_0e", &Self::energyE, "1", "activation energy for dislocations", input::positive())

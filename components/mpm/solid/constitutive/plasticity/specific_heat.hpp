@@ -107,7 +107,9 @@ struct CubicHeat {
             .value("a", &Self::a, 1, "1", "constant part of the Grüneisen parameter")
             .value("b", &Self::b, 1, "1", "part of the Grüneisen parameter that grows with the volume")
             .value("beta", &Self::expansion, 0, "1/K", "growth of the volume with the temperature")
-            .required("c0", &Self::c0, "kg K^4/J", "in c_v = u^3 / (c0 + c1 u + c2 u^2 + c3 u^3), u = T/theta in K")
+            .required("c0", &Self::c0, "kg K^4/J",
+                      "in c_v = u^3 / (c0 + c1 u + c2 u^2 + c3 u^3), u = T/theta (K), where theta is the Debye "
+                      "temperature divided by its value at the initial density")
             .required("c1", &Self::c1, "kg K^3/J", "see c0")
             .required("c2", &Self::c2, "kg K^2/J", "see c0")
             .required("c3", &Self::c3, "kg K/J", "see c0");

@@ -43,7 +43,8 @@ struct DruckerCheck {
   static constexpr std::string_view name = "drucker";
   static const input::Schema<DruckerCheck>& schema() {
     static const input::Schema<DruckerCheck> schema(
-        "stability_check", "A particle fails where the rate of its stress does no work on its strain rate (Drucker).");
+        "stability_check",
+        "A particle fails where the product of stress rate and strain rate is not positive (Drucker).");
     return schema;
   }
   /// Whether the check fails; `rate` is the symmetric part of the velocity gradient [1/s].
