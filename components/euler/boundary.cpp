@@ -230,6 +230,21 @@ std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array
   return w;
 }
 
+/// Fills a row of cells beyond a side from the row inside.
+template <int D, std::size_t N>
+void fillRow(const GhostRule<D>& rule, int depth, const std::array<double*, N>& from, int count,
+             const std::array<double*, N>& to) {
+  const bool isLinear = !(rule.densityOfPressure > 0) && !(rule.temperature > 0) && !rule.relaxes.acts();
+  for (std::ptrdiff_t i = 0; i < count && !isLinear; ++i)
+    store<D>(to, i, beyondSide<D>(rule, depth, load<D>(from, i)));
+  for (std::size_t k = 0; k < N && isLinear; ++k) {
+    const bool isRuled = k < rule.factor.size();
+    const double factor = isRuled ? rule.factor[k] : 0, value = isRuled ? rule.value[k] : 0;
+    if (!isRuled) std::copy_n(from[k], count, to[k]);
+    for (std::ptrdiff_t i = 0; i < count && isRuled; ++i) to[k][i] = factor * from[k][i] + value;
+  }
+}
+
 /// Fills the cells of a box beyond a side with rules that differ from cell to cell.
 template <int D, int K>
 void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyond, int axis, int side,
@@ -303,10 +318,16 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& 
         fillByPlace<D>(level, rules, beyond, d, side, rows);
         continue;
       }
-      forEach<D>(beyond, [&](const Index<D>& cell) {
-        Index<D> source = cell;
-        source[d] = sourceOf(cell[d], grid.upper[d], rule.mirrored);
-        store<D>(rows.at(cell), 0, beyondSide<D>(rule, depthOf(cell[d], grid.upper[d]), load<D>(rows.at(source), 0)));
+      forEachRow<D>(beyond, [&](const Index<D>& first, int count) {
+        const int cells = grid.upper[d];
+        Index<D> source = first;
+        source[d] = sourceOf(first[d], cells, rule.mirrored);
+        const auto to = rows.at(first), from = rows.at(source);
+        if (d > 0) return fillRow<D>(rule, depthOf(first[d], cells), from, count, to);
+        for (int i = 0, x = first[0]; i < count; ++i, ++x) {
+          const int inside = sourceOf(x, cells, rule.mirrored) - source[0];
+          store<D>(to, i, beyondSide<D>(rule, depthOf(x, cells), load<D>(from, inside)));
+        }
       });
     }
     known.lower[d] = box.lower[d];
