@@ -100,12 +100,15 @@ void pack(const data::Label& label, int dimension, const Piece& piece, const Var
     to.resize(before + piece.box.size() * label.bytes);
     return copyCells(piece.box, {}, label.bytes, {old.values, old.stored}, {to.data() + before, piece.box});
   }
-  Bytes values(piece.box.size() * label.bytes);
-  if (piece.coarser < 0)
-    prolong(label, dimension, {old.values, old.stored}, piece.box, {values.data(), piece.box});
-  else
-    values = meansOf(label, dimension, piece, old);
-  mpi::append(to, values.data(), values.size());
+  if (piece.coarser > 0) {
+    const Bytes means = meansOf(label, dimension, piece, old);
+    return mpi::append(to, means.data(), means.size());
+  }
+  thread_local Bytes finer;
+  const std::size_t bytes = piece.box.size() * label.bytes;
+  if (finer.size() < bytes) finer.resize(bytes);
+  prolong(label, dimension, {old.values, old.stored}, piece.box, {finer.data(), piece.box});
+  mpi::append(to, finer.data(), bytes);
 }
 
 void unpack(const data::Label& label, const Piece& piece, const Variable& to, const std::byte*& from) {

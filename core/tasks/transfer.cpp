@@ -160,49 +160,67 @@ class Interpolation {
 
   /// Computes the children of rows of coarse cells, as far as they lie in the box.
   void setChildren(const Box& rows) {
-    for (int corner = 0; corner < 1 << (D - 1); ++corner)
-      grid::forEachRow<3>(rows, [&](const Index3& first, int count) {
-        Index3 child = first;
-        bool isInside = true;
-        for (int d = 0; d < D; ++d) {
-          child[d] = 2 * first[d] + (d > 0 ? corner >> (d - 1) & 1 : 0);
-          isInside = isInside && (d == 0 || (child[d] >= box_.lower[d] && child[d] < box_.upper[d]));
-        }
-        if (isInside) setChildrenOfRow(first, count, corner, child);
-      });
+    bool areAllInside = true;
+    for (int d = 0; d < D; ++d)
+      areAllInside =
+          areAllInside && 2 * rows.lower[d] >= box_.lower[d] && 2 * rows.upper[d] <= box_.upper[d];
+    grid::forEachRow<3>(rows, [&](const Index3& first, int count) {
+      if (areAllInside) return setAllChildren(first, count);
+      Index3 parent = first;
+      for (; parent[0] < first[0] + count; ++parent[0]) setChildrenInside(parent);
+    });
   }
-  /// The same for a row, and for children at one corner of the other axes. `child` is the lower child along x of the
-  /// first cell.
-  void setChildrenOfRow(const Index3& first, int count, int corner, const Index3& child) {
-    const bool hasFirst = child[0] >= box_.lower[0], hasLast = child[0] + 2 * count - 1 < box_.upper[0];
-    const std::ptrdiff_t n = numbers(), offset = offsetOf(first);
-    const double* middle = coarse_.at(first);
-    std::array<const double*, D> quarter{};
-    std::array<double, D> sign{};
-    for (int d = 0; d < D; ++d) {
-      quarter[static_cast<std::size_t>(d)] = quarters_ + d * room_ + offset;
-      if (d > 0) sign[static_cast<std::size_t>(d)] = (corner >> (d - 1) & 1) != 0 ? 1 : -1;
+  static Index3 firstChild(Index3 parent) {
+    for (int d = 0; d < D; ++d) parent[d] *= 2;
+    return parent;
+  }
+  /// The distance in memory of a child from the lower child along x; each bit of `corner` is its place along one of the
+  /// other axes.
+  std::ptrdiff_t besideOf(int corner) const {
+    std::ptrdiff_t beside = 0;
+    for (int d = 1; d < D; ++d) beside += (corner >> (d - 1) & 1) * fine_.stride(d);
+    return beside;
+  }
+  /// Adds the slopes along all axes but x to a value.
+  double toCorner(double value, int corner, std::ptrdiff_t at) const {
+    for (int d = 1; d < D; ++d) {
+      const double quarter = quarters_[d * room_ + at];
+      value += (corner >> (d - 1) & 1) != 0 ? quarter : -quarter;
     }
-    const auto valueOf = [&](std::ptrdiff_t at, double fromMiddle) {
-      double value = middle[at] + fromMiddle;
-      for (std::size_t d = 1; d < D; ++d) value += sign[d] * quarter[d][at];
-      return value;
-    };
-    double* to = fine_.at(child);
-    const std::ptrdiff_t from = hasFirst ? 0 : 1, end = hasLast ? count : count - 1;
-    for (std::ptrdiff_t k = 0; k < n && !hasFirst; ++k) to[n + k] = valueOf(k, quarter[0][k]);
-#pragma GCC ivdep
-    for (std::ptrdiff_t cell = from; cell < end; ++cell)
+    return value;
+  }
+  /// All children of a row of cells.
+  void setAllChildren(const Index3& first, int count) const {
+    const std::ptrdiff_t n = numbers();
+    const double *middle = coarse_.at(first), *along = quarters_ + offsetOf(first);
+    std::array<double*, 1 << (D - 1)> to{};
+    for (int corner = 0; corner < 1 << (D - 1); ++corner)
+      to[static_cast<std::size_t>(corner)] = fine_.at(firstChild(first)) + besideOf(corner);
+    for (std::ptrdiff_t cell = 0; cell < count; ++cell)
       for (std::ptrdiff_t k = 0; k < n; ++k) {
-        const std::ptrdiff_t at = cell * n + k;
-        to[2 * cell * n + k] = valueOf(at, -quarter[0][at]);
-        to[(2 * cell + 1) * n + k] = valueOf(at, quarter[0][at]);
+        const std::ptrdiff_t at = cell * n + k, child = at + cell * n;
+        const double below = middle[at] - along[at], above = middle[at] + along[at];
+        for (int corner = 0; corner < 1 << (D - 1); ++corner) {
+          double* children = to[static_cast<std::size_t>(corner)] + child;
+          children[0] = toCorner(below, corner, offsetOf(first) + at);
+          children[n] = toCorner(above, corner, offsetOf(first) + at);
+        }
       }
-    if (!hasLast && (hasFirst || count > 1))
+  }
+  /// Those children of a cell that lie in the box.
+  void setChildrenInside(const Index3& parent) const {
+    const std::ptrdiff_t n = numbers(), at = offsetOf(parent);
+    const double* middle = coarse_.at(parent);
+    for (unsigned child = 0; child < 1U << D; ++child) {
+      Index3 cell = firstChild(parent);
+      for (int d = 0; d < D; ++d) cell[d] += static_cast<int>(child >> d & 1);
+      if (!box_.contains(cell)) continue;
+      double* to = fine_.at(cell);
       for (std::ptrdiff_t k = 0; k < n; ++k) {
-        const std::ptrdiff_t at = (count - 1) * n + k;
-        to[2 * (count - 1) * n + k] = valueOf(at, -quarter[0][at]);
+        const double quarter = quarters_[at + k];
+        to[k] = toCorner(middle[k] + ((child & 1) != 0 ? quarter : -quarter), static_cast<int>(child >> 1), at + k);
       }
+    }
   }
 
   Cells<const double> coarse_;
