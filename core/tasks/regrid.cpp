@@ -257,7 +257,7 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
         if (grid.isMine(piece.from)) visit(piece, parts[owners.ownerOf(piece.to)]);
       });
   };
-  forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packCounts(piece, to); });
+  if (luggage.hasMaterials()) forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packCounts(piece, to); });
   forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packValues(piece, to); });
   return parts;
 }
@@ -329,7 +329,8 @@ void changePatches(grid::Grid& grid, const grid::Tiling& next, data::Warehouse& 
       pieces.of(patch.id(), [&](const Piece& piece) { visit(piece, messages.of(ownersBefore.ownerOf(piece.from))); });
   };
   luggage.beginSets();
-  forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackCounts(piece, from); });
+  if (luggage.hasMaterials())
+    forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackCounts(piece, from); });
   luggage.endSets();
   luggage.allocateParticles();
   forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackValues(piece, from); });
