@@ -230,8 +230,8 @@ std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array
   return w;
 }
 
-/// Fills a line of cells beyond a side from a line of cells inside, `depth` cells away from the side; cells of a line are
-/// `step` places apart in memory.
+/// Fills a line of cells, `depth` cells beyond a side, from a line of cells inside; cells of a line are `step` places
+/// apart in memory.
 template <int D, std::size_t N>
 void fillLine(const GhostRule<D>& rule, int depth, const std::array<double*, N>& from, int count, std::ptrdiff_t step,
               const std::array<double*, N>& to) {

@@ -118,8 +118,8 @@ class Interpolation {
  private:
   std::ptrdiff_t numbers() const { return Components > 0 ? Components : components_; }
 
-  /// Computes a quarter of the slopes along each axis in rows of coarse cells of a plane, and in the cells between these
-  /// rows, where they mean nothing. A slope is 0 if a neighbour is missing.
+  /// Computes a quarter of the slopes along each axis in rows of coarse cells of a plane, and in the cells between
+  /// these rows, where they mean nothing. A slope is 0 if a neighbour is missing.
   void setSlopes(const Box& rows) {
     first_ = rows.lower;
     toRow_ = coarse_.stride(1);
@@ -162,8 +162,7 @@ class Interpolation {
   void setChildren(const Box& rows) {
     bool areAllInside = true;
     for (int d = 0; d < D; ++d)
-      areAllInside =
-          areAllInside && 2 * rows.lower[d] >= box_.lower[d] && 2 * rows.upper[d] <= box_.upper[d];
+      areAllInside = areAllInside && 2 * rows.lower[d] >= box_.lower[d] && 2 * rows.upper[d] <= box_.upper[d];
     grid::forEachRow<3>(rows, [&](const Index3& first, int count) {
       if (areAllInside) return setAllChildren(first, count);
       Index3 parent = first;

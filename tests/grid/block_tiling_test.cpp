@@ -42,8 +42,9 @@ TEST(BlockTiling, FindsEachPatchThatABoxOverlapsOnceInTheirOrder) {
           Box box{{}, Index3::filled(1)};
           for (int d = 0; d < dimension; ++d) {
             const auto cells = static_cast<unsigned>(tiling.tree().blocksOf(level)[d] * block[d]);
-            box.lower[d] = static_cast<int>(random() % cells);
-            box.upper[d] = box.lower[d] + 1 + static_cast<int>(random() % (cells - static_cast<unsigned>(box.lower[d])));
+            const auto lower = static_cast<unsigned>(random() % cells);
+            box.lower[d] = static_cast<int>(lower);
+            box.upper[d] = static_cast<int>(lower + 1 + random() % (cells - lower));
           }
           std::vector<int> expected;
           for (int id = 0; id < tiling.count(); ++id)

@@ -46,7 +46,9 @@ std::vector<Coarse> coarseBoxes() {
 /// A quarter of the slope of a number of a coarse cell along an axis; 0 if a neighbour is not stored.
 double quarterSlope(const std::vector<double>& coarse, const Box& stored, int components, const Index3& cell, int axis,
                     int number) {
-  const auto at = [&](const Index3& of) { return coarse[stored.offset(of) * static_cast<std::size_t>(components) + number]; };
+  const auto at = [&](const Index3& of) {
+    return coarse[stored.offset(of) * static_cast<std::size_t>(components) + static_cast<std::size_t>(number)];
+  };
   const Index3 below = cell - Index3::unit(axis), above = cell + Index3::unit(axis);
   if (!stored.contains(below) || !stored.contains(above)) return 0;
   return 0.25 * Mc::slope(at(cell) - at(below), at(above) - at(cell));
@@ -84,12 +86,12 @@ TEST(Prolongation, AddsLimitedSlopesToTheParent) {
         grid::forEach<3>(box, [&](const Index3& cell) {
           const Index3 parent = Box{cell, cell + Index3::filled(1)}.coarsened(dimension).lower;
           for (int k = 0; k < components; ++k) {
-            double value = coarse[stored.offset(parent) * static_cast<std::size_t>(components) + k];
+            double value = coarse[stored.offset(parent) * static_cast<std::size_t>(components) + static_cast<std::size_t>(k)];
             for (int d = 0; d < dimension; ++d) {
               const double quarter = quarterSlope(coarse, stored, components, parent, d, k);
               value += cell[d] == 2 * parent[d] ? -quarter : quarter;
             }
-            expected[all.offset(cell) * static_cast<std::size_t>(components) + k] = value;
+            expected[all.offset(cell) * static_cast<std::size_t>(components) + static_cast<std::size_t>(k)] = value;
           }
         });
         prolong(label, dimension, valuesOf(coarse, stored), box, valuesOf(fine, all));
