@@ -86,7 +86,8 @@ TEST(Prolongation, AddsLimitedSlopesToTheParent) {
         grid::forEach<3>(box, [&](const Index3& cell) {
           const Index3 parent = Box{cell, cell + Index3::filled(1)}.coarsened(dimension).lower;
           for (int k = 0; k < components; ++k) {
-            double value = coarse[stored.offset(parent) * static_cast<std::size_t>(components) + static_cast<std::size_t>(k)];
+            double value =
+                coarse[stored.offset(parent) * static_cast<std::size_t>(components) + static_cast<std::size_t>(k)];
             for (int d = 0; d < dimension; ++d) {
               const double quarter = quarterSlope(coarse, stored, components, parent, d, k);
               value += cell[d] == 2 * parent[d] ? -quarter : quarter;
