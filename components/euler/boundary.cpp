@@ -230,6 +230,40 @@ std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array
   return w;
 }
 
+/// Fills a line of cells, `depth` cells beyond a side, from a line of cells inside; cells of a line are `step` places
+/// apart in memory.
+template <int D, std::size_t N>
+void fillLine(const GhostRule<D>& rule, int depth, const std::array<double*, N>& from, int count, std::ptrdiff_t step,
+              const std::array<double*, N>& to) {
+  const bool isLinear = !(rule.densityOfPressure > 0) && !(rule.temperature > 0) && !rule.relaxes.acts();
+  if (!isLinear) {
+    for (int i = 0; i < count; ++i) store<D>(to, i * step, beyondSide<D>(rule, depth, load<D>(from, i * step)));
+    return;
+  }
+  for (std::size_t k = 0; k < N; ++k) {
+    const bool isRuled = k < rule.factor.size();  // amounts of several gases continue
+    for (int i = 0; i < count && !isRuled; ++i) to[k][i * step] = from[k][i * step];
+    for (int i = 0; i < count && isRuled; ++i) to[k][i * step] = rule.factor[k] * from[k][i * step] + rule.value[k];
+  }
+}
+
+/// Fills the cells of a box beyond a side where one rule applies to all of them.
+template <int D, int K>
+void fillByRule(const GhostRule<D>& rule, const Box& beyond, int axis, int cells, Rows<D, K>& rows) {
+  if (beyond.empty()) return;
+  const bool isAlongY = D > 1 && axis == 0;
+  Box starts = axis == 0 ? beyond : beyond.rowStarts();
+  if (isAlongY) starts.upper[1] = starts.lower[1] + 1;
+  forEach<D>(starts, [&](const Index<D>& first) {
+    Index<D> source = first;
+    source[axis] = sourceOf(first[axis], cells, rule.mirrored);
+    const int depth = depthOf(first[axis], cells);
+    if (isAlongY) return fillLine<D>(rule, depth, rows.at(source), beyond.extent(1), rows.stride(1), rows.at(first));
+    const int count = axis == 0 ? 1 : beyond.extent(0);
+    fillLine<D>(rule, depth, rows.at(source), count, 1, rows.at(first));
+  });
+}
+
 /// Fills the cells of a box beyond a side with rules that differ from cell to cell.
 template <int D, int K>
 void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyond, int axis, int side,
@@ -303,11 +337,7 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& 
         fillByPlace<D>(level, rules, beyond, d, side, rows);
         continue;
       }
-      forEach<D>(beyond, [&](const Index<D>& cell) {
-        Index<D> source = cell;
-        source[d] = sourceOf(cell[d], grid.upper[d], rule.mirrored);
-        store<D>(rows.at(cell), 0, beyondSide<D>(rule, depthOf(cell[d], grid.upper[d]), load<D>(rows.at(source), 0)));
-      });
+      fillByRule<D>(rule, beyond, d, grid.upper[d], rows);
     }
     known.lower[d] = box.lower[d];
     known.upper[d] = box.upper[d];

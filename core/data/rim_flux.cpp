@@ -37,24 +37,4 @@ const Label& rimLabelOf(const Label& label) {
   return owned->label;
 }
 
-template <int D>
-void forEachRimFace(std::span<const grid::RimPiece> pieces, const grid::Box& faces, int axis,
-                    FunctionRef<void(const Index<D>& face, std::size_t place)> visit) {
-  for (const grid::RimPiece& piece : pieces) {
-    if (piece.axis != axis) continue;
-    const grid::Box all = piece.cells.shifted(piece.side == 0 ? Index3{} : Index3::unit(axis));
-    grid::forEach<D>(all.intersect(faces), [&](const Index<D>& face) {
-      Index3 at;
-      for (int d = 0; d < D; ++d) at[d] = face[d];
-      visit(face, piece.first + all.offset(at));
-    });
-  }
-}
-template void forEachRimFace(std::span<const grid::RimPiece>, const grid::Box&, int,
-                             FunctionRef<void(const Index<1>&, std::size_t)>);
-template void forEachRimFace(std::span<const grid::RimPiece>, const grid::Box&, int,
-                             FunctionRef<void(const Index<2>&, std::size_t)>);
-template void forEachRimFace(std::span<const grid::RimPiece>, const grid::Box&, int,
-                             FunctionRef<void(const Index<3>&, std::size_t)>);
-
 }  // namespace tushar::data

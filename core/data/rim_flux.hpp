@@ -1,8 +1,8 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
-#include "core/base/function_ref.hpp"
 #include "core/data/label.hpp"
 #include "core/grid/rim.hpp"
 
@@ -11,11 +11,21 @@ namespace tushar::data {
 /// The label of the fluxes of a cell variable through the rims of patches; it exists until the program ends.
 const Label& rimLabelOf(const Label& label);
 
-/// Calls `visit(face, place)` for the rim faces normal to an axis that lie in a box of faces; `place` is the position
-/// of the face among the values of the rims.
-template <int D>
-void forEachRimFace(std::span<const grid::RimPiece> pieces, const grid::Box& faces, int axis,
-                    FunctionRef<void(const Index<D>& face, std::size_t place)> visit);
+/// Calls `visit(first, count, place)` for each row of rim faces that are normal to an axis and lie in a box of faces.
+/// Rows are along the first axis; `place` is the position of the first face among the values of the rims, and those of
+/// the other faces of the row follow.
+template <int D, class Visit>
+void forEachRimRow(std::span<const grid::RimPiece> pieces, const grid::Box& faces, int axis, Visit&& visit) {
+  for (const grid::RimPiece& piece : pieces) {
+    if (piece.axis != axis) continue;
+    const grid::Box all = piece.cells.shifted(piece.side == 0 ? Index3{} : Index3::unit(axis));
+    grid::forEachRow<D>(all.intersect(faces), [&](const Index<D>& first, int count) {
+      Index3 at;
+      for (int d = 0; d < D; ++d) at[d] = first[d];
+      visit(first, count, piece.first + all.offset(at));
+    });
+  }
+}
 
 /// The fluxes of a variable through those faces of a patch at which its level ends: the amount per unit area and time,
 /// along the axis. Empty on a single level, and if no task needs the fluxes. Several tasks of a step may each add a
@@ -39,10 +49,18 @@ class RimFlux {
   /// of the cell above it.
   template <int D, class Visit>
   void forEachFaceIn(const grid::Box& faces, int axis, Visit&& visit) const {
-    if (empty()) return;
-    forEachRimFace<D>(pieces_, faces, axis,
-                      [&](const Index<D>& face, std::size_t place) { visit(face, values_[place]); });
+    forEachRowIn<D>(faces, axis, [&](Index<D> face, int count, std::size_t place) {
+      for (T* through = values_ + place; count > 0; --count, ++face[0]) visit(face, *through++);
+    });
   }
+  /// Calls `visit(first, count, place)` for rows of these faces; `place` is the position of the first face, which is
+  /// the same for all variables of a patch. See at().
+  template <int D, class Visit>
+  void forEachRowIn(const grid::Box& faces, int axis, Visit&& visit) const {
+    forEachRimRow<D>(pieces_, faces, axis, std::forward<Visit>(visit));
+  }
+  /// The flux through the face at a position.
+  T& at(std::size_t place) const { return values_[place]; }
 
  private:
   T* values_ = nullptr;

@@ -17,7 +17,10 @@ Box blocksOver(const Box& cells, const Index3& blockCells) {
 namespace {
 
 std::size_t placeInTable(const BlockTree& tree, const BlockId& block) {
-  return Box{{}, tree.blocksOf(block.level)}.offset(block.at);
+  const int level = block.level, dimension = tree.dimension();
+  const auto count = [&](int d) { return static_cast<std::size_t>(tree.roots()[d]) << (d < dimension ? level : 0); };
+  const std::size_t x = block.at[0], y = block.at[1], z = block.at[2];
+  return x + count(0) * (y + count(1) * z);
 }
 
 /// Lookup tables for those levels whose table has at most `mostPerLeaf` entries per leaf of the tree. A table is faster
@@ -72,14 +75,24 @@ Tile BlockTiling::tileOf(int level, const Index3& cell) const {
 }
 
 std::vector<Tile> BlockTiling::overlapping(int level, const Box& cells) const {
+  thread_local std::vector<int> ids;
+  ids.clear();
   const Box blocks = blocksOver(cells, block_cells_);
-  std::vector<int> ids;
-  ids.reserve(blocks.rows() * static_cast<std::size_t>(std::min(blocks.extent(0), 4)));
-  forEach<3>(blocks, [&](const Index3& block) {
-    if (const int id = patchOf({level, block}); id >= 0 && (ids.empty() || ids.back() != id)) ids.push_back(id);
+  forEach<3>(blocks.rowStarts(), [&](Index3 at) {
+    while (at[0] < blocks.upper[0]) {
+      const int id = patchOf({level, at});
+      if (id < 0) {
+        ++at[0];
+        continue;
+      }
+      // A patch is a box of blocks: the first row of blocks that it shares with `blocks` adds it, once.
+      const Box ofPatch = blocksOver(patches_[static_cast<std::size_t>(id)].cells, block_cells_);
+      if (at[1] == std::max(ofPatch.lower[1], blocks.lower[1]) && at[2] == std::max(ofPatch.lower[2], blocks.lower[2]))
+        ids.push_back(id);
+      at[0] = ofPatch.upper[0];
+    }
   });
   std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::vector<Tile> found;
   found.reserve(ids.size());
   for (const int id : ids) found.push_back(tile(id));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace tushar::simulation {
 
@@ -36,8 +37,9 @@ double halfJump(const Neighbours& near, int components) {
 /// Half the difference between the outer two values, divided by the smallest magnitude of the three; infinite if that
 /// is 0.
 double relativeJump(double below, double middle, double above) {
-  const double jump = 0.5 * std::abs(above - below);
-  return jump == 0 ? 0 : jump / std::min(std::min(std::abs(below), std::abs(middle)), std::abs(above));
+  const double jump = 0.5 * std::abs(above - below), a = std::abs(below), b = std::abs(middle), c = std::abs(above);
+  const double least = b < a ? b : a;
+  return jump == 0 ? 0 : jump / (c < least ? c : least);
 }
 
 double relativeJump(const Neighbours& near, int components) {
@@ -76,17 +78,20 @@ int markOf(const Criterion& criterion, std::span<const Neighbours> axes, std::sp
   return isBeyond(criterion.refine) ? 2 : isBeyond(criterion.coarsen) ? 1 : 0;
 }
 
-/// The indicator of a jump, from the `N` components in a cell and in the cells on both sides.
+/// Raises `most` to a number that increases with the jump of the `N` components from the cell below to the cell above:
+/// the jump itself or, for vectors, the square of twice the jump.
 template <int N>
-double jumpOf(const double* below, const double* middle, const double* above) {
-  if constexpr (N == 1) return relativeJump(*below, *middle, *above);
-  double sum = 0;
-  for (int k = 0; k < N; ++k) sum += (above[k] - below[k]) * (above[k] - below[k]);
-  return 0.5 * std::sqrt(sum);
+void raiseJump(const double* below, const double* middle, const double* above, double& most) {
+  double jump = 0;
+  if constexpr (N == 1)
+    jump = relativeJump(*below, *middle, *above);
+  else
+    for (int k = 0; k < N; ++k) jump += (above[k] - below[k]) * (above[k] - below[k]);
+  most = jump > most ? jump : most;
 }
 
 /// Like raiseMarks, for jumps of variables with `N` components, row by row along the first axis. Most criteria are of
-/// this kind.
+/// this kind. The loops are vectorised.
 template <int N>
 void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, const data::Variable& values,
                        const data::Variable& marks) {
@@ -94,25 +99,32 @@ void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, con
   const grid::Box& stored = values.stored;
   const auto* numbers = reinterpret_cast<const double*>(values.values);
   const double refine = criterion.refine, coarsen = criterion.coarsen;
+  std::vector<double> greatest(static_cast<std::size_t>(patch.cells().extent(0)));
+  double* const most = greatest.data();
   grid::forEachRow<3>(patch.cells(), [&](const Index3& first, int count) {
     const double* row = numbers + stored.offset(first) * N;
     int* mark = reinterpret_cast<int*>(marks.values) + marks.stored.offset(first);
     std::ptrdiff_t stride = N;
     // Cells from one place in the row to another, with or without cells on both sides.
-    const auto raise = [&](int from, int to, bool hasBelow, bool hasAbove) {
+    const auto raise = [&](std::ptrdiff_t from, std::ptrdiff_t to, bool hasBelow, bool hasAbove) {
       const double *below = hasBelow ? row - stride : row, *above = hasAbove ? row + stride : row;
-      for (std::ptrdiff_t k = from; k < to; ++k) {
-        const double jump = jumpOf<N>(below + k * N, row + k * N, above + k * N);
-        mark[k] = std::max(mark[k], jump > refine ? 2 : jump > coarsen ? 1 : 0);
-      }
+#pragma GCC ivdep
+      for (std::ptrdiff_t k = from; k < to; ++k) raiseJump<N>(below + k * N, row + k * N, above + k * N, most[k]);
     };
+    std::fill(greatest.begin(), greatest.end(), 0.0);
     const bool hasLower = first[0] > stored.lower[0], hasUpper = first[0] + count < stored.upper[0];
-    raise(0, 1, hasLower, hasUpper || count > 1);
-    raise(1, count - 1, true, true);
-    if (count > 1) raise(count - 1, count, true, hasUpper);
+    if (!hasLower) raise(0, 1, false, hasUpper || count > 1);
+    raise(hasLower ? 0 : 1, hasUpper ? count : count - 1, true, true);
+    if (!hasUpper && (hasLower || count > 1)) raise(count - 1, count, true, false);
     for (int d = 1; d < dimension; ++d) {
       stride *= stored.extent(d - 1);
       raise(0, count, first[d] > stored.lower[d], first[d] + 1 < stored.upper[d]);
+    }
+#pragma GCC ivdep
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+      const double jump = N == 1 ? most[k] : 0.5 * std::sqrt(most[k]);
+      const int here = jump > refine ? 2 : jump > coarsen ? 1 : 0;
+      mark[k] = mark[k] > here ? mark[k] : here;
     }
   });
 }

@@ -22,9 +22,9 @@ void reflux(const TaskContext& context, int components, double dt) {
     const auto* own = reinterpret_cast<const double*>(rim.values) + piece.first * static_cast<std::size_t>(components);
     const double* finer = own + piece.cells.size() * static_cast<std::size_t>(components);
     auto* values = reinterpret_cast<double*>(cells.values);
-    grid::forEach<3>(piece.cells, [&](const Index3& cell) {
-      double* value = values + cells.stored.offset(cell) * static_cast<std::size_t>(components);
-      for (int k = 0; k < components; ++k) value[k] += ratio * (*own++ - *finer++);
+    grid::forEachRow<3>(piece.cells, [&](const Index3& first, int count) {
+      double* value = values + cells.stored.offset(first) * static_cast<std::size_t>(components);
+      for (int left = count * components; left > 0; --left) *value++ += ratio * (*own++ - *finer++);
     });
   }
 }

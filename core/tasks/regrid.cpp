@@ -100,12 +100,15 @@ void pack(const data::Label& label, int dimension, const Piece& piece, const Var
     to.resize(before + piece.box.size() * label.bytes);
     return copyCells(piece.box, {}, label.bytes, {old.values, old.stored}, {to.data() + before, piece.box});
   }
-  Bytes values(piece.box.size() * label.bytes);
-  if (piece.coarser < 0)
-    prolong(label, dimension, {old.values, old.stored}, piece.box, {values.data(), piece.box});
-  else
-    values = meansOf(label, dimension, piece, old);
-  mpi::append(to, values.data(), values.size());
+  if (piece.coarser > 0) {
+    const Bytes means = meansOf(label, dimension, piece, old);
+    return mpi::append(to, means.data(), means.size());
+  }
+  thread_local Bytes finer;
+  const std::size_t bytes = piece.box.size() * label.bytes;
+  if (finer.size() < bytes) finer.resize(bytes);
+  prolong(label, dimension, {old.values, old.stored}, piece.box, {finer.data(), piece.box});
+  mpi::append(to, finer.data(), bytes);
 }
 
 void unpack(const data::Label& label, const Piece& piece, const Variable& to, const std::byte*& from) {
@@ -254,7 +257,7 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
         if (grid.isMine(piece.from)) visit(piece, parts[owners.ownerOf(piece.to)]);
       });
   };
-  forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packCounts(piece, to); });
+  if (luggage.hasMaterials()) forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packCounts(piece, to); });
   forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packValues(piece, to); });
   return parts;
 }
@@ -326,7 +329,8 @@ void changePatches(grid::Grid& grid, const grid::Tiling& next, data::Warehouse& 
       pieces.of(patch.id(), [&](const Piece& piece) { visit(piece, messages.of(ownersBefore.ownerOf(piece.from))); });
   };
   luggage.beginSets();
-  forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackCounts(piece, from); });
+  if (luggage.hasMaterials())
+    forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackCounts(piece, from); });
   luggage.endSets();
   luggage.allocateParticles();
   forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackValues(piece, from); });

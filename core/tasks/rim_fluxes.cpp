@@ -35,16 +35,18 @@ template <int D>
 void meansOf(const GhostCopy& copy, int components, const FinerFaces& finer, double* to) {
   const std::ptrdiff_t one = finer.strides[copy.axis == 0 ? 1 : 0],
                        other = finer.strides[copy.axis == 2 ? 1 : 2];  // along the face
-  grid::forEach<3>(copy.box, [&](const Index3& cell) {
-    const double* face = finer.first;
-    for (int d = 0; d < D; ++d) face += 2 * (cell[d] - copy.box.lower[d]) * finer.strides[static_cast<std::size_t>(d)];
-    for (int k = 0; k < components; ++k, ++face) {
-      const auto pair = [&](std::ptrdiff_t beside) { return face[beside] + face[beside + one]; };
-      if constexpr (D == 1) *to++ = *face;
-      if constexpr (D == 2) *to++ = 0.5 * pair(0);
-      if constexpr (D == 3) *to++ = 0.25 * (pair(0) + pair(other));
+  const Index3 count = copy.box.upper - copy.box.lower;
+  for (int z = 0; z < count[2]; ++z)
+    for (int y = 0; y < count[1]; ++y) {
+      const double* face = finer.first + 2 * (y * finer.strides[1] + z * finer.strides[2]);
+      for (int x = 0; x < count[0]; ++x, face += 2 * finer.strides[0])
+        for (int k = 0; k < components; ++k) {
+          const auto pair = [&](std::ptrdiff_t beside) { return face[k + beside] + face[k + beside + one]; };
+          if constexpr (D == 1) *to++ = face[k];
+          if constexpr (D == 2) *to++ = 0.5 * pair(0);
+          if constexpr (D == 3) *to++ = 0.25 * (pair(0) + pair(other));
+        }
     }
-  });
 }
 
 }  // namespace

@@ -27,9 +27,9 @@ class Cells {
     return numbers_ + static_cast<std::ptrdiff_t>(stored_.offset(cell)) * components_;
   }
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
-  bool hasBoth(const Index3& cell, int axis) const {
-    return cell[axis] > stored_.lower[axis] && cell[axis] + 1 < stored_.upper[axis];
-  }
+  bool hasBelow(int cell, int axis) const { return cell > stored_.lower[axis]; }
+  bool hasAbove(int cell, int axis) const { return cell + 1 < stored_.upper[axis]; }
+  const Box& stored() const { return stored_; }
 
  private:
   Number* numbers_;
@@ -38,13 +38,14 @@ class Cells {
   std::array<std::ptrdiff_t, 3> stride_{};
 };
 
-/// The means of a row of `count` cells, from their first child. `Components`: 0 if it is not known at compile time.
-template <int D, int Components>
+/// The means of a row of `count` cells, from their first child. `Components`: 0 if it is not known at compile time;
+/// likewise `Count`, the number of cells of a short row.
+template <int D, int Components, int Count = 0>
 void meansOfRow(const double* child, const std::array<std::ptrdiff_t, 3>& stride, int count, int components,
                 double* to) {
   const std::ptrdiff_t x = stride[0], y = stride[1], z = stride[2];
-  const int numbers = Components > 0 ? Components : components;
-  for (int cell = 0; cell < count; ++cell, child += x)  // the second one along x
+  const int numbers = Components > 0 ? Components : components, cells = Count > 0 ? Count : count;
+  for (int cell = 0; cell < cells; ++cell, child += x)  // the second one along x
     for (int k = 0; k < numbers; ++k, ++child) {
       const auto pair = [&](std::ptrdiff_t beside) { return child[beside] + child[beside + x]; };
       if constexpr (D == 1) *to++ = 0.5 * pair(0);
@@ -53,9 +54,8 @@ void meansOfRow(const double* child, const std::array<std::ptrdiff_t, 3>& stride
     }
 }
 
-template <int D, int Components>
-void meansOf(const Box& box, const CellValues& from, const CellValues& means, int components) {
-  if (box.empty()) return;
+template <int D, int Components, int Count>
+void meansOfRows(const Box& box, const CellValues& from, const CellValues& means, int components) {
   const Cells<const double> fine(from, components);
   const Cells<double> coarse(means, components);
   const std::array<std::ptrdiff_t, 3> stride{fine.stride(0), fine.stride(1), fine.stride(2)};
@@ -65,7 +65,23 @@ void meansOf(const Box& box, const CellValues& from, const CellValues& means, in
     const double* child = fine.at(first) + (D > 2 ? 2 : 1) * z * stride[2];
     double* to = coarse.at(box.lower) + z * coarse.stride(2);
     for (int y = 0; y < box.extent(1); ++y, child += (D > 1 ? 2 : 1) * stride[1], to += coarse.stride(1))
-      meansOfRow<D, Components>(child, stride, box.extent(0), components, to);
+      meansOfRow<D, Components, Count>(child, stride, box.extent(0), components, to);
+  }
+}
+
+/// Beside a patch rows are short; loops of fixed length take less time there.
+template <int D, int Components>
+void meansOf(const Box& box, const CellValues& from, const CellValues& means, int components) {
+  if (box.empty()) return;
+  switch (box.extent(0)) {
+    case 1:
+      return meansOfRows<D, Components, 1>(box, from, means, components);
+    case 2:
+      return meansOfRows<D, Components, 2>(box, from, means, components);
+    case 3:
+      return meansOfRows<D, Components, 3>(box, from, means, components);
+    default:
+      return meansOfRows<D, Components, 0>(box, from, means, components);
   }
 }
 
@@ -75,126 +91,134 @@ void meansOf(const Box& box, const CellValues& from, const CellValues& means, in
   components == D ? meansOf<D, D>(box, from, means, components) : meansOf<D, 0>(box, from, means, components);
 }
 
-/// The children of a coarse cell that lie in a box; one bit per axis identifies a child.
-template <int D>
-unsigned childrenIn(const Box& box, const Index3& first) {
-  unsigned inside = 0;
-  for (unsigned child = 0; child < 1u << D; ++child) {
-    bool isInside = true;
-    for (int d = 0; d < D; ++d) {
-      const int at = first[d] + static_cast<int>(child >> d & 1);
-      isInside = isInside && at >= box.lower[d] && at < box.upper[d];
-    }
-    inside |= static_cast<unsigned>(isInside) << child;
-  }
-  return inside;
-}
-
-/// A coarse cell, and the finer cells in it.
-template <int D>
-struct Family {
-  const double* parent;
-  std::array<std::ptrdiff_t, D> stride;  ///< distance to the parent's neighbours; 0: one is missing
-  double* first;                         ///< values of the first child
-  unsigned inside;                       ///< children to be computed, one bit each
-};
-
-/// Interpolates the children of a coarse cell. `beside`: the distance in memory of each child from the first.
-/// `Components`: 0 if it is not known at compile time.
-template <int D, int Components, bool AllInside>
-void interpolate(Family<D> family, const std::array<std::ptrdiff_t, 1 << D>& beside, int numbers) {
-  const int components = Components > 0 ? Components : numbers;
-  const auto& stride = family.stride;
-  for (int k = 0; k < components; ++k, ++family.parent, ++family.first) {
-    const double* middle = family.parent;
-    std::array<double, D> quarter{};
-    for (std::size_t d = 0; d < D; ++d)
-      quarter[d] = 0.25 * Mc::slope(*middle - middle[-stride[d]], middle[stride[d]] - *middle);
-    for (unsigned child = 0; child < beside.size(); ++child) {
-      if (!AllInside && !(family.inside >> child & 1)) continue;
-      double value = *middle;
-      for (unsigned d = 0; d < D; ++d) value += child >> d & 1 ? quarter[d] : -quarter[d];
-      family.first[beside[child]] = value;
-    }
-  }
-}
-
-/// Computes a quarter of the slope of each number, whose neighbours are `stride` places before and after it; `stride`
-/// is 0 if a neighbour is missing.
-void quarterSlopes(const double* middle, std::ptrdiff_t stride, std::ptrdiff_t count, double* quarter) {
-  if (stride == 0) return static_cast<void>(std::fill_n(quarter, count, 0.0));
-#pragma GCC ivdep
-  for (std::ptrdiff_t k = 0; k < count; ++k)
-    quarter[k] = 0.25 * Mc::slope(middle[k] - middle[k - stride], middle[k + stride] - middle[k]);
-}
-
 /// Coarse cells, and the finer cells in them.
 template <int D, int Components>
 class Interpolation {
  public:
   Interpolation(const CellValues& from, const Box& box, const CellValues& to, int components)
-      : coarse_(from, components), fine_(to, components), box_(box), components_(components) {
-    for (unsigned child = 0; child < beside_.size(); ++child)
-      for (int d = 0; d < D; ++d) beside_[child] += (child >> d & 1) * fine_.stride(d);
-  }
+      : coarse_(from, components), fine_(to, components), box_(box), components_(components) {}
 
+  /// The slopes of rows of coarse cells are computed in one stretch of memory if these rows are all that is stored, up
+  /// to the neighbours; otherwise row by row.
   void run() {
-    constexpr int fewest = 4;  // cells of a row that pay off
-    grid::forEachRow<3>(box_.coarsened(D), [&](const Index3& first, int count) {
-      Index3 last = first;
-      last[0] += count - 1;
-      const bool areAllInside = insideOf(first) == all && insideOf(last) == all;
-      if (areAllInside && count >= fewest) return ofRow(first, last);
-      for (Index3 parent = first; parent[0] <= last[0]; ++parent[0])
-        ofCell(parent, areAllInside ? all : insideOf(parent));
-    });
+    const Box parents = box_.coarsened(D);
+    if (parents.empty()) return;
+    const bool isOneStretch = D > 1 && coarse_.stored().extent(0) <= parents.extent(0) + 2;
+    Box rows = parents;
+    grid::forEach<3>({{{0, parents.lower[1], parents.lower[2]}},
+                      {{1, isOneStretch ? parents.lower[1] + 1 : parents.upper[1], parents.upper[2]}}},
+                     [&](const Index3& first) {
+                       for (int d = 1; d < 3; ++d) rows.lower[d] = first[d], rows.upper[d] = first[d] + 1;
+                       if (isOneStretch) rows.upper[1] = parents.upper[1];
+                       setSlopes(rows);
+                       setChildren(rows);
+                     });
   }
 
  private:
-  static constexpr unsigned all = (1U << (1 << D)) - 1;
+  std::ptrdiff_t numbers() const { return Components > 0 ? Components : components_; }
 
-  std::ptrdiff_t strideOf(const Index3& parent, int axis) const {
-    return coarse_.hasBoth(parent, axis) ? coarse_.stride(axis) : 0;
+  /// Computes a quarter of the slopes along each axis in rows of coarse cells of a plane, and in the cells between
+  /// these rows, where they mean nothing. A slope is 0 if a neighbour is missing.
+  void setSlopes(const Box& rows) {
+    first_ = rows.lower;
+    toRow_ = coarse_.stride(1);
+    const std::ptrdiff_t count = (rows.extent(1) - 1) * toRow_ + rows.extent(0) * numbers();
+    room_ = (count + 7) / 8 * 8;
+    thread_local std::vector<double> quarters;
+    if (quarters.size() < static_cast<std::size_t>(room_) * D) quarters.resize(static_cast<std::size_t>(room_) * D);
+    quarters_ = quarters.data();
+    const double* middle = coarse_.at(rows.lower);
+    for (int d = 0; d < D; ++d) {
+      // The first and the last cell of the stretch may have no neighbour that is stored.
+      double* quarter = quarters_ + d * room_;
+      const std::ptrdiff_t stride = coarse_.stride(d);
+      Box lower = rows, upper = rows;
+      lower.upper[d] = coarse_.hasBelow(rows.lower[d], d) ? rows.lower[d] : rows.lower[d] + 1;
+      upper.lower[d] = coarse_.hasAbove(rows.upper[d] - 1, d) ? rows.upper[d] : rows.upper[d] - 1;
+      const std::ptrdiff_t skipped = lower.empty() ? 0 : d == 0 ? numbers() : toRow_;
+      const std::ptrdiff_t end = upper.empty() ? count : count - (d == 0 ? numbers() : d == 1 ? toRow_ : count);
+      if (d < 2 || (lower.empty() && upper.empty())) {
+#pragma GCC ivdep
+        for (std::ptrdiff_t k = skipped; k < end; ++k)
+          quarter[k] = 0.25 * Mc::slope(middle[k] - middle[k - stride], middle[k + stride] - middle[k]);
+      }
+      clear(lower, quarter);
+      clear(upper, quarter);
+    }
+  }
+  /// Sets the slopes of cells of the stretch to 0.
+  void clear(const Box& cells, double* quarter) const {
+    grid::forEachRow<3>(cells, [&](const Index3& first, int count) {
+      std::fill_n(quarter + offsetOf(first), count * numbers(), 0.0);
+    });
+  }
+  /// The distance in memory of a coarse cell from the first of the stretch.
+  std::ptrdiff_t offsetOf(const Index3& parent) const {
+    return (parent[1] - first_[1]) * toRow_ + (parent[0] - first_[0]) * numbers();
+  }
+
+  /// Computes the children of rows of coarse cells, as far as they lie in the box.
+  void setChildren(const Box& rows) {
+    bool areAllInside = true;
+    for (int d = 0; d < D; ++d)
+      areAllInside = areAllInside && 2 * rows.lower[d] >= box_.lower[d] && 2 * rows.upper[d] <= box_.upper[d];
+    grid::forEachRow<3>(rows, [&](const Index3& first, int count) {
+      if (areAllInside) return setAllChildren(first, count);
+      Index3 parent = first;
+      for (; parent[0] < first[0] + count; ++parent[0]) setChildrenInside(parent);
+    });
   }
   static Index3 firstChild(Index3 parent) {
     for (int d = 0; d < D; ++d) parent[d] *= 2;
     return parent;
   }
-  unsigned insideOf(const Index3& parent) const { return childrenIn<D>(box_, firstChild(parent)); }
-
-  void ofCell(const Index3& parent, unsigned inside) {
-    Family<D> family{coarse_.at(parent), {}, fine_.at(firstChild(parent)), inside};
-    for (int d = 0; d < D; ++d) family.stride[static_cast<std::size_t>(d)] = strideOf(parent, d);
-    inside == all ? interpolate<D, Components, true>(family, beside_, components_)
-                  : interpolate<D, Components, false>(family, beside_, components_);
+  /// The distance in memory of a child from the lower child along x; each bit of `corner` is its place along one of the
+  /// other axes.
+  std::ptrdiff_t besideOf(int corner) const {
+    std::ptrdiff_t beside = 0;
+    for (int d = 1; d < D; ++d) beside += (corner >> (d - 1) & 1) * fine_.stride(d);
+    return beside;
   }
-
-  /// All children of a row of cells; bitwise equal to the children of single cells.
-  void ofRow(const Index3& first, const Index3& last) {
-    const std::ptrdiff_t cell = Components > 0 ? Components : components_, count = (last[0] - first[0] + 1) * cell;
-    thread_local std::vector<double> quarters;
-    if (quarters.size() < static_cast<std::size_t>(count) * D) quarters.resize(static_cast<std::size_t>(count) * D);
-    const double* middle = coarse_.at(first);
-    std::array<const double*, D> quarter{};
-    for (int d = 0; d < D; ++d) {
-      double* slopes = quarters.data() + d * count;
-      quarter[static_cast<std::size_t>(d)] = slopes;
-      if (d > 0) {
-        quarterSlopes(middle, strideOf(first, d), count, slopes);
-        continue;
-      }
-      quarterSlopes(middle, strideOf(first, 0), cell, slopes);
-      quarterSlopes(middle + cell, cell, count - 2 * cell, slopes + cell);
-      quarterSlopes(middle + count - cell, strideOf(last, 0), cell, slopes + count - cell);
+  /// Adds the slopes along all axes but x to a value.
+  double toCorner(double value, int corner, std::ptrdiff_t at) const {
+    for (int d = 1; d < D; ++d) {
+      const double quarter = quarters_[d * room_ + at];
+      value += (corner >> (d - 1) & 1) != 0 ? quarter : -quarter;
     }
-    for (unsigned child = 0; child < beside_.size(); ++child) {
-      double* to = fine_.at(firstChild(first)) + beside_[child];
-      for (std::ptrdiff_t at = 0; at < count; to += cell)
-        for (const std::ptrdiff_t end = at + cell; at < end; ++at) {
-          double value = middle[at];
-          for (unsigned d = 0; d < D; ++d) value += child >> d & 1 ? quarter[d][at] : -quarter[d][at];
-          *to++ = value;
+    return value;
+  }
+  /// All children of a row of cells.
+  void setAllChildren(const Index3& first, int count) const {
+    const std::ptrdiff_t n = numbers();
+    const double *middle = coarse_.at(first), *along = quarters_ + offsetOf(first);
+    std::array<double*, 1 << (D - 1)> to{};
+    for (int corner = 0; corner < 1 << (D - 1); ++corner)
+      to[static_cast<std::size_t>(corner)] = fine_.at(firstChild(first)) + besideOf(corner);
+    for (std::ptrdiff_t cell = 0; cell < count; ++cell)
+      for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const std::ptrdiff_t at = cell * n + k, child = at + cell * n;
+        const double below = middle[at] - along[at], above = middle[at] + along[at];
+        for (int corner = 0; corner < 1 << (D - 1); ++corner) {
+          double* children = to[static_cast<std::size_t>(corner)] + child;
+          children[0] = toCorner(below, corner, offsetOf(first) + at);
+          children[n] = toCorner(above, corner, offsetOf(first) + at);
         }
+      }
+  }
+  /// Those children of a cell that lie in the box.
+  void setChildrenInside(const Index3& parent) const {
+    const std::ptrdiff_t n = numbers(), at = offsetOf(parent);
+    const double* middle = coarse_.at(parent);
+    for (unsigned child = 0; child < 1U << D; ++child) {
+      Index3 cell = firstChild(parent);
+      for (int d = 0; d < D; ++d) cell[d] += static_cast<int>(child >> d & 1);
+      if (!box_.contains(cell)) continue;
+      double* to = fine_.at(cell);
+      for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const double quarter = quarters_[at + k];
+        to[k] = toCorner(middle[k] + ((child & 1) != 0 ? quarter : -quarter), static_cast<int>(child >> 1), at + k);
+      }
     }
   }
 
@@ -202,7 +226,10 @@ class Interpolation {
   Cells<double> fine_;
   Box box_;
   int components_;
-  std::array<std::ptrdiff_t, 1 << D> beside_{};  ///< the distance in memory of each child from the first
+  Index3 first_{};
+  std::ptrdiff_t toRow_ = 0;
+  double* quarters_ = nullptr;  ///< a quarter of the slopes of a stretch: room_ numbers for each axis
+  std::ptrdiff_t room_ = 0;
 };
 
 template <int D>

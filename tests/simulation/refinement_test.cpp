@@ -11,6 +11,7 @@
 #include "core/simulation/regridder.hpp"
 #include "tests/simulation/cooling.hpp"
 #include "tests/support/levels.hpp"
+#include "tests/support/run.hpp"
 
 namespace tushar::simulation {
 
@@ -34,6 +35,56 @@ grid::Domain row(bool isPeriodic = false) {
   domain.periodic[0] = isPeriodic;
   domain.refinement.levels = 3;
   return domain;
+}
+
+constexpr CellLabel<double> anyNumber{"c.any", "1", "a number in each cell"};
+template <int D>
+constexpr CellLabel<Vec<D>> anyVector{"c.vector", "1", "a vector in each cell"};
+constexpr ReductionLabel<Sum> wrong{"wrong", "1", "number of wrong marks"};
+
+template <int D>
+void fillAny(const Patch& patch, CellView<double> numbers, CellView<Vec<D>> vectors) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double place = static_cast<double>(patch.level().cellNumber<D>(cell));
+    numbers[cell] = 1 + 0.2 * std::sin(7 * place * place);
+    for (int d = 0; d < D; ++d) vectors[cell][d] = 0.2 * std::cos((3 + d) * place * place);
+  });
+}
+
+/// The jumps of a variable around a cell.
+template <int D, class T>
+double jumpAt(const Level& level, const CellView<const T>& values, const Index<D>& cell) {
+  const auto numbers = [&](const Index<D>& at) { return reinterpret_cast<const double*>(&values[at]); };
+  std::vector<Neighbours> axes;
+  for (int d = 0; d < D; ++d) {
+    const Index<D> below = cell - Index<D>::unit(d), above = cell + Index<D>::unit(d);
+    axes.push_back({cell[d] > 0 ? numbers(below) : nullptr, numbers(cell),
+                    above[d] < level.cells().upper[d] ? numbers(above) : nullptr});
+  }
+  return of(Indicator::jump, axes, std::vector<double>(D, 1), sizeof(T) / sizeof(double));
+}
+
+/// The number of cells whose mark is not that of their indicators.
+template <int D>
+double wrongMarks() {
+  test::Runner run(test::unitBox<D>(D == 3 ? 7 : 19));
+  std::vector<BoundCriterion> criteria{{{}, &anyNumber, true}, {{}, &anyVector<D>, true}};
+  for (BoundCriterion& one : criteria) one.criterion.refine = 0.16, one.criterion.coarsen = 0.08;
+  tasks::TaskList list;
+  list.perPatch("fill", fillAny<D>, computes(anyNumber), computes(anyVector<D>));
+  list.add(markTask(criteria));
+  const auto compare = [](const Patch& patch, CellView<const double> numbers, CellView<const Vec<D>> vectors,
+                          CellView<const int> marks, Sum& wrong) {
+    forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+      const double most = std::max(jumpAt<D>(patch.level(), numbers, cell), jumpAt<D>(patch.level(), vectors, cell));
+      wrong.add(marks[cell] != (most > 0.16 ? 2 : most > 0.08 ? 1 : 0));
+    });
+  };
+  list.perPatch("compare", compare, requiresNew(anyNumber, 1), requiresNew(anyVector<D>, 1),
+                requiresNew(tasks::refinementMark), computes(wrong));
+  tasks::TaskGraph graph = run.compile(list, {"wrong"});
+  run.step(graph);
+  return run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0);
 }
 
 std::vector<int> levelsOfLeaves(const grid::BlockTree& tree) {
@@ -72,6 +123,12 @@ TEST(Indicator, BesideASideOfTheGridTakesTheCellsOwnValue) {
   const double b = 2, c = 4;
   EXPECT_DOUBLE_EQ(of(Indicator::jump, {{nullptr, &b, &c}}, {0.5}, 1), 0.5);
   EXPECT_DOUBLE_EQ(of(Indicator::above, {{nullptr, &b, &c}}, {0.5}, 1), 2);
+}
+
+TEST(Marks, OfRowsAreThoseOfTheIndicatorsOfTheirCells) {
+  EXPECT_EQ(wrongMarks<1>(), 0);
+  EXPECT_EQ(wrongMarks<2>(), 0);
+  EXPECT_EQ(wrongMarks<3>(), 0);
 }
 
 TEST(MarkedBlocks, AreThoseThatSignalsCanReachUntilTheNextLook) {

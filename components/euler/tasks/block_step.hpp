@@ -175,22 +175,19 @@ void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>
 /// Stores the fluxes along an axis through the rim of the level.
 template <int D, int K>
 void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>& flux) {
-  if (rims.mass.empty()) return;
-  const auto at = [&](const Index<D>& face, std::size_t number) { return flux.number(face, number); };
-  rims.mass.template forEachFaceIn<D>(faces, axis,
-                                      [&](const Index<D>& face, double& through) { through += at(face, kDensity); });
-  rims.momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {
-    for (int d = 0; d < D; ++d) through[d] += at(face, kVelocity(d));
-  });
-  rims.energy.template forEachFaceIn<D>(
-      faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kPressure<D>); });
-  if constexpr (K > 1)
-    for (int k = 0; k < K; ++k) {
-      rims.gases[k].mass.template forEachFaceIn<D>(
-          faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kMass<D>(k)); });
-      rims.gases[k].share.template forEachFaceIn<D>(
-          faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kShare<D, K>(k)); });
+  rims.mass.template forEachRowIn<D>(faces, axis, [&](const Index<D>& first, int count, std::size_t place) {
+    const auto through = flux.at(first);
+    for (int i = 0; i < count; ++i, ++place) {
+      rims.mass.at(place) += through[kDensity][i];
+      for (int d = 0; d < D; ++d) rims.momentum.at(place)[d] += through[kVelocity(d)][i];
+      rims.energy.at(place) += through[kPressure<D>][i];
+      if constexpr (K > 1)
+        for (int k = 0; k < K; ++k) {
+          rims.gases[k].mass.at(place) += through[kMass<D>(k)][i];
+          rims.gases[k].share.at(place) += through[kShare<D, K>(k)][i];
+        }
     }
+  });
 }
 
 template <int D, class Flux, class Shape, int Axis, class G>

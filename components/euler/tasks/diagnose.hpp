@@ -2,6 +2,7 @@
 
 #include "components/euler/gas.hpp"
 #include "components/euler/labels.hpp"
+#include "components/euler/rows.hpp"
 
 namespace tushar::euler {
 
@@ -85,12 +86,31 @@ void sumEntropy(const Patch& patch, const Gas& gas, CellView<const double> densi
   });
 }
 
+/// Calls `visit(law, k, density, internal energy per volume)` for the cells of a row, k = 0 to `count` - 1, in a loop
+/// for the law of the gas that is vectorised if the law allows it. The energy is bitwise that of
+/// internalEnergyPerVolume; `momentum` has D numbers per cell.
+template <int D, class Visit>
+void forEachState(const Gas& gas, const double* density, const double* momentum, const double* totalEnergy, int count,
+                  Visit&& visit) {
+  gas.withLaw([&](const auto& law) {
+#pragma GCC ivdep
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+      const double* m = momentum + k * D;
+      double squared = m[D - 1] * m[D - 1];  // from the last axis to the first, as Eigen adds
+      for (int d = D - 2; d >= 0; --d) squared = m[d] * m[d] + squared;
+      visit(law, k, density[k], totalEnergy[k] - 0.5 * squared / density[k]);
+    }
+  });
+}
+
 template <int D>
 void computePressure(const Patch& patch, const Gas& gas, CellView<const double> density,
                      CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, CellView<double> pressure) {
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double energy = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
-    pressure[cell] = gas.pressure(density[cell], energy);
+  forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
+    double* to = rowOf(pressure, first, count);
+    forEachState<D>(
+        gas, rowOf(density, first, count), rowOf(momentum, first, count)->data(), rowOf(totalEnergy, first, count),
+        count, [to](const auto& law, std::ptrdiff_t k, double rho, double e) { to[k] = law.pressure(rho, e); });
   });
 }
 
@@ -103,12 +123,14 @@ void computeVelocity(const Patch& patch, CellView<const double> density, CellVie
 template <int D>
 void computeMach(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
                  CellView<const double> totalEnergy, CellView<Vec<D>> mach) {
-  gas.withLaw([&](const auto& law) {
-    forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-      const double energy = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
-      const double last = law.last(density[cell], energy);
-      mach[cell] = momentum[cell] / (density[cell] * std::sqrt(law.soundSpeedSquared(density[cell], last)));
-    });
+  forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
+    const double* from = rowOf(momentum, first, count)->data();
+    double* to = rowOf(mach, first, count)->data();
+    forEachState<D>(gas, rowOf(density, first, count), from, rowOf(totalEnergy, first, count), count,
+                    [from, to](const auto& law, std::ptrdiff_t k, double rho, double e) {
+                      const double sound = std::sqrt(law.soundSpeedSquared(rho, law.last(rho, e)));
+                      for (int d = 0; d < D; ++d) to[k * D + d] = from[k * D + d] / (rho * sound);
+                    });
   });
 }
 
