@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "components/mpm/shapes/linear.hpp"
-#include "components/mpm/shapes/tensor_shape.hpp"
-#include "components/mpm/solid/explicit/tasks/update_particles.hpp"
+#include "components/mpm/solid/explicit/tasks/deform_particles.hpp"
 #include "tests/mpm/solid/explicit/bare_update.hpp"
 
 // How far a step may deform a particle.
@@ -26,13 +24,13 @@ struct Deformed {
     return domain;
   }
   /// Updates F with L = `gradient`; returns whether the particle is lost.
-  bool deform(const Matrix3& gradient) {
+  bool deform(Matrix3 gradient) {
     set.reset(grid.patches().front(), 0);
     set.setOwned(1);
     StateUpdate<2> update = bareUpdate(set, grid.level());
     update.oldDeformation = {before.data(), set, grid.level().cells()};
     update.deformation = {now.data(), set, grid.level().cells()};
-    return deformBy<2>(method, dt, gradient.squaredNorm(), update, 0, gradient);
+    return deformParticles<2>(method, dt, update, 0, 1, &gradient);
   }
 };
 

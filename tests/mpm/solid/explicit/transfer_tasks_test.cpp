@@ -8,6 +8,7 @@
 #include "components/mpm/solid/constitutive/ideal_gas.hpp"
 #include "components/mpm/solid/constitutive/model.hpp"
 #include "components/mpm/solid/explicit/tasks/affine.hpp"
+#include "components/mpm/solid/explicit/tasks/deform_particles.hpp"
 #include "components/mpm/solid/explicit/tasks/gradient_enhanced.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/solid/explicit/tasks/update_in_parts.hpp"

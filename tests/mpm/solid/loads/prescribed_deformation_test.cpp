@@ -8,7 +8,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "components/mpm/solid/explicit/tasks/update_particles.hpp"
+#include "components/mpm/solid/explicit/tasks/deform_particles.hpp"
 
 // A prescribed deformation of a body: its rate, and the files that describe it.
 

@@ -1,6 +1,8 @@
-#include "components/mpm/solid/explicit/tasks/update_stresses.hpp"
+#include "components/mpm/solid/explicit/tasks/update_states.hpp"
 
 #include <Eigen/LU>
+
+#include "components/mpm/solid/explicit/tasks/deform_particles.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -120,16 +122,26 @@ Matrix3* MovedParticles<D>::add(const Index<D>& cell, const data::ParticleRange&
 }
 
 template <int D>
-void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
-                    const StateUpdate<D>& u, const CrossingRate<D>& none, const BetweenPlanes<D>& space,
-                    MovedParticles<D>& moved) {
+void updateStates(const Level& level, const Material& material, const Method& method, double time, double dt,
+                  const StateUpdate<D>& u, const CrossingRate<D>& none, const BetweenPlanes<D>& space,
+                  MovedParticles<D>& moved) {
+  if (moved.cells.count() == 0) return;
+  const int first = moved.cells.first();
+  Matrix3* const velocityGradient = moved.velocityGradient.data();
+  if constexpr (!updatesTogether<D>)
+    moved.hasLost = deformParticles<D>(method, dt, u, first, moved.cells.count(), velocityGradient);
+  finishDeformation<D>(material, u, first, moved.cells.count(), velocityGradient);
+  if (moved.volumes == Volumes::shared)
+    moved.cells.forEachCell([&](const Index<D>&, const data::ParticleRange& range) {
+      shareVolume<D>(dt, range, u, velocityGradient + (range.first - first));
+    });
   moved.cells.forEachGroup([&](int k, int count) {
-    updateStress<D>(level, material, method, time, dt, u, moved.velocityGradient.data() + k, moved.cells.first() + k,
-                    count, moved.waveSpeed.data() + k);
+    updateStress<D>(level, material, method, time, dt, u, velocityGradient + k, first + k, count,
+                    moved.waveSpeed.data() + k);
   });
   moved.cells.forEachCell([&](const Index<D>& cell, const data::ParticleRange& range) {
     CrossingRate<D> rate = none;
-    const double* const waveSpeed = moved.waveSpeed.data() + (range.first - moved.cells.first());
+    const double* const waveSpeed = moved.waveSpeed.data() + (range.first - first);
     rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
     if (moved.hasLost || !rate.isKnown() || (u.newX && !space.containAll(u.newX->values() + range.first, range.size())))
       rate = withoutLost<D>(level, u, cell, range, none, space, waveSpeed);
@@ -143,11 +155,11 @@ void updateStresses(const Level& level, const Material& material, const Method& 
 template struct MovedParticles<1>;
 template struct MovedParticles<2>;
 template struct MovedParticles<3>;
-template void updateStresses(const Level&, const Material&, const Method&, double, double, const StateUpdate<1>&,
-                             const CrossingRate<1>&, const BetweenPlanes<1>&, MovedParticles<1>&);
-template void updateStresses(const Level&, const Material&, const Method&, double, double, const StateUpdate<2>&,
-                             const CrossingRate<2>&, const BetweenPlanes<2>&, MovedParticles<2>&);
-template void updateStresses(const Level&, const Material&, const Method&, double, double, const StateUpdate<3>&,
-                             const CrossingRate<3>&, const BetweenPlanes<3>&, MovedParticles<3>&);
+template void updateStates(const Level&, const Material&, const Method&, double, double, const StateUpdate<1>&,
+                           const CrossingRate<1>&, const BetweenPlanes<1>&, MovedParticles<1>&);
+template void updateStates(const Level&, const Material&, const Method&, double, double, const StateUpdate<2>&,
+                           const CrossingRate<2>&, const BetweenPlanes<2>&, MovedParticles<2>&);
+template void updateStates(const Level&, const Material&, const Method&, double, double, const StateUpdate<3>&,
+                           const CrossingRate<3>&, const BetweenPlanes<3>&, MovedParticles<3>&);
 
 }  // namespace tushar::mpm::solid
