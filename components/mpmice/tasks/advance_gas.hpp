@@ -128,7 +128,7 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
                   const euler::MixtureViews<D, double>& fresh) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (near(cell)) return;
-    const euler::Gas gas = lawAt<D>(settings, fresh, cell);
+    const euler::Gas gas = lawAt<D>(settings, fresh, 1, cell);
     if (!euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1))
       euler::refuseState<D, double>(patch.level(), gas, cell, fresh, settings.gases.empty() ? &cells.held : nullptr);
   });

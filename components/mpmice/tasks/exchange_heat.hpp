@@ -74,7 +74,7 @@ class HeatExchange {
       for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
     }
     gas_.totalEnergy[cell] -= given;
-    if (present > solid && !settings_.gases.empty())
+    if (present > solid && !settings_.gases.empty() && !areBlended(settings_))
       ice::changeShares(changes, first, gas_.free[cell],
                         [&](Eigen::Index k) -> double& { return gas_.shares[k][cell]; });
     return given;
@@ -98,6 +98,7 @@ class HeatExchange {
     const auto first = static_cast<Eigen::Index>(bodies_.size());
     const double free = gas_.free[cell], mass = gas_.density[cell];
     const double internal = gas_.totalEnergy[cell] - 0.5 * gas_.momentum[cell].squaredNorm() / mass;
+    if (areBlended(settings_)) return addBlend(cell, internal, things);
     if (!settings_.gases.empty()) {
       euler::MixedGas mixed;
       for (std::size_t k = 0; k < settings_.gases.size(); ++k)
@@ -115,6 +116,23 @@ class HeatExchange {
     things.temperature[first] = internal / (mass * gas.specificHeat);
     if (gas.law || gas.pInfinity > 0) things.temperature[first] = gas.temperature(mass / free, internal / free);
     things.volume[first] = free;
+  }
+
+  /// Adds gases with laws of their own, which have one temperature; their volumes do not change here.
+  void addBlend(const Index<D>& cell, double internal, ice::WarmThings<Most>& things) const {
+    const auto first = static_cast<Eigen::Index>(bodies_.size());
+    const double free = gas_.free[cell];
+    std::array<double, euler::kMostGases> masses{};
+    for (std::size_t k = 0; k < gas_.masses.size(); ++k) masses[k] = gas_.masses[k][cell] / free;
+    const euler::Blend blend = settings_.gases.front().blend->at(masses.data(), internal / free);
+    for (std::size_t k = 0; k < gas_.masses.size(); ++k) {
+      if (!blend.isPossible || !(gas_.masses[k][cell] > ice::leastPartOfMass * gas_.density[cell])) continue;
+      const auto at = first + static_cast<Eigen::Index>(k);
+      things.mass[at] = gas_.masses[k][cell];
+      things.capacity[at] = things.mass[at] * settings_.gases[k].gas.specificHeat;
+      things.temperature[at] = blend.temperature;
+      things.volume[at] = free * blend.shares[k];
+    }
   }
 
   const Patch& patch_;
