@@ -54,11 +54,12 @@ double BlendLaws::Substance::densityAt(double pressure, double temperature, doub
   for (int k = 0; k < 200; ++k) {
     const double there = cold.pressure(rho) + heat * rho, slope = cold.slope(rho) + heat;
     (there < pressure ? low : high) = rho;
-    double next = rho * std::exp(std::clamp(std::log(pressure / there) * there / (slope * rho), -5.0, 5.0));
-    if (!(next > low && next < high)) next = std::isinf(high) ? 2 * rho : 0.5 * (low + high);
-    const double change = std::abs(next - rho);
+    const double step = std::log(pressure / there) * there / (slope * rho);
+    double next = rho * std::exp(std::clamp(step, -5.0, 5.0));
+    const bool isDone = std::abs(step) <= nearlyDone;
+    if (!isDone && !(next > low && next < high)) next = std::isinf(high) ? 2 * rho : 0.5 * (low + high);
     rho = next;
-    if (change <= nearlyDone * rho) break;
+    if (isDone) break;
   }
   return rho;
 }
@@ -107,11 +108,12 @@ double BlendLaws::temperatureAt(const double* masses, double energy, double pres
   for (int k = 0; k < 200; ++k) {
     const Sums sums = sumsAt(masses, pressure, at, rho);
     (sums.energy < energy ? least : most) = at;
-    double next = at + (energy - sums.energy) / sums.energyOfHeat;
-    if (!(next > least && next < most)) next = std::isinf(most) ? 2 * at : 0.5 * (least + most);
-    const double change = std::abs(next - at);
+    const double step = (energy - sums.energy) / sums.energyOfHeat;
+    const bool isDone = std::abs(step) <= nearlyDone * at;
+    double next = at + step;
+    if (!isDone && !(next > least && next < most)) next = std::isinf(most) ? 2 * at : 0.5 * (least + most);
     at = next;
-    if (change <= nearlyDone * at) break;
+    if (isDone) break;
   }
   return at;
 }

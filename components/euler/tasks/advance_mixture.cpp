@@ -1,5 +1,7 @@
 #include "components/euler/tasks/advance_mixture.hpp"
 
+#include <fmt/ranges.h>
+
 #include "components/euler/tasks/advance_patch.hpp"
 #include "components/euler/tasks/mend_new_cells.hpp"
 
@@ -26,7 +28,7 @@ void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases,
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (isPossible<D>(gases, held, state, cell)) return;
     if (gases.front().blend)
-      refuseBlend<D>(patch.level(), cell, state.density[cell], internalEnergyIn<D>(state, cell));
+      refuseBlend<D>(patch.level(), cell, massesIn(held, cell), internalEnergyIn<D>(state, cell));
     refuseState<D, T>(patch.level(), mixedAt(gases, held, cell).alike(), cell, state, nullptr);
   });
 }
@@ -75,11 +77,12 @@ void closeShares(const Patch& patch, const std::vector<Settings>&, const std::ve
 }
 
 template <int D>
-void refuseBlend(const Level& level, const Index<D>& cell, double density, double energy) {
+void refuseBlend(const Level& level, const Index<D>& cell, const std::array<double, kMostGases>& masses,
+                 double energy) {
   const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
-  throw NumericalError(fmt::format("the gases of the cell at ({:g}, {:g}, {:g}) m became impossible: density {:.6g} "
-                                   "kg/m^3, internal energy {:.6g} J/m^3",
-                                   at[0], at[1], at[2], density, energy),
+  throw NumericalError(fmt::format("the gases of the cell at ({:g}, {:g}, {:g}) m became impossible: {:.6g} kg/m^3 with "
+                                   "the internal energy {:.6g} J/m^3",
+                                   at[0], at[1], at[2], fmt::join(masses, " + "), energy),
                        "", "c.density", level.cellNumber<D>(cell));
 }
 
@@ -93,7 +96,7 @@ void closeBlend(const Patch& patch, const std::vector<Settings>& gases, CellView
     std::array<double, kMostGases> held{};
     for (std::size_t k = 0; k < masses.size(); ++k) held[k] = masses[k][cell];
     const Blend blend = laws.at(held.data(), energy);
-    if (!(density[cell] > 0) || !blend.isPossible) refuseBlend<D>(patch.level(), cell, density[cell], energy);
+    if (!(density[cell] > 0) || !blend.isPossible) refuseBlend<D>(patch.level(), cell, held, energy);
     for (std::size_t k = 0; k < shares.size(); ++k) shares[k][cell] = blend.shares[k];
   });
 }
@@ -133,7 +136,7 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, do
     const double energy = internalEnergyIn<D, const double>(old, cell);
     const MixedGas mixed = lawAt(gases, held, energy, cell);
     const double rho = old.density[cell], p = mixed.pressure(rho, energy);
-    if (gases.front().blend && !(mixed.softness > 0)) refuseBlend<D>(patch.level(), cell, rho, energy);
+    if (gases.front().blend && !(mixed.softness > 0)) refuseBlend<D>(patch.level(), cell, massesIn(held, cell), energy);
     const double c = std::sqrt(mixed.soundSpeedSquared(rho, p));
     double rate = 0;
     for (int d = 0; d < D; ++d) rate += (std::abs(old.momentum[cell][d]) / rho + c) * patch.level().inverseSpacing(d);
@@ -154,7 +157,7 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, do
   template void closeBlend<D>(const Patch&, const std::vector<Settings>&, CellView<const double>,                 \
                               CellView<const Vec<D>>, CellView<const double>,                                     \
                               const std::vector<CellView<const double>>&, const std::vector<CellView<double>>&);  \
-  template void refuseBlend<D>(const Level&, const Index<D>&, double, double);                                    \
+  template void refuseBlend<D>(const Level&, const Index<D>&, const std::array<double, kMostGases>&, double);     \
   template void limitMixtureStep<D>(const Patch&, const std::vector<Settings>&, double, const OldState<D>&,       \
                                     const std::vector<OldGas>&, Minimum&);
 TUSHAR_MIXTURE(1)

@@ -120,10 +120,11 @@ template <int D>
 void closeBlend(const Patch& patch, const std::vector<Settings>& gases, CellView<const double> density,
                 CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
                 const std::vector<CellView<const double>>& masses, const std::vector<CellView<double>>& shares);
-/// Throws NumericalError for a cell whose gases, with laws of their own, have no equilibrium: the density is that of the
-/// gas [kg/m³], and the energy its internal energy per volume [J/m³].
+/// Throws NumericalError for a cell whose gases, with laws of their own, have no equilibrium, given the mass [kg/m³] of
+/// each and the internal energy [J/m³] of all, per volume of the gas.
 template <int D>
-[[noreturn]] void refuseBlend(const Level& level, const Index<D>& cell, double density, double energy);
+[[noreturn]] void refuseBlend(const Level& level, const Index<D>& cell, const std::array<double, kMostGases>& masses,
+                              double energy);
 
 /// Views of the variables of one of several gases that regridding changes.
 struct ChangedGas {

@@ -26,11 +26,15 @@ struct ReactingGas {
   double energy(const Index<D>& cell) const {
     return euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]) / free[cell];
   }
-  /// The equilibrium of gases with laws of their own.
-  euler::Blend blend(const Settings& settings, const Index<D>& cell) const {
+  /// The masses of each gas per volume of the gas [kg/m³].
+  std::array<double, euler::kMostGases> own(const Index<D>& cell) const {
     std::array<double, euler::kMostGases> own{};
     for (std::size_t k = 0; k < masses.size(); ++k) own[k] = masses[k][cell] / free[cell];
-    return settings.gases.front().blend->at(own.data(), energy(cell));
+    return own;
+  }
+  /// The equilibrium of gases with laws of their own.
+  euler::Blend blend(const Settings& settings, const Index<D>& cell) const {
+    return settings.gases.front().blend->at(own(cell).data(), energy(cell));
   }
   double pressure(const Settings& settings, const Index<D>& cell) const {
     if (areBlended(settings)) return blend(settings, cell).pressure;
@@ -73,8 +77,7 @@ void closeGases(const Patch& patch, const Settings& settings, const ReactingGas<
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (gas.isEmpty(cell)) return;
     const euler::Blend blend = gas.blend(settings, cell);
-    if (!blend.isPossible)
-      euler::refuseBlend<D>(patch.level(), cell, gas.density[cell] / gas.free[cell], gas.energy(cell));
+    if (!blend.isPossible) euler::refuseBlend<D>(patch.level(), cell, gas.own(cell), gas.energy(cell));
     for (std::size_t k = 0; k < gas.shares.size(); ++k) gas.shares[k][cell] = blend.shares[k];
   });
 }
