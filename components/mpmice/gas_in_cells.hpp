@@ -38,8 +38,8 @@ euler::Blend blendAt(const Settings& settings, const euler::MixtureViews<D, T>& 
 /// Whether one of several gases is neither ideal nor stiffened.
 inline bool areBlended(const Settings& settings) { return !settings.gases.empty() && settings.gases.front().blend; }
 
-/// The law of the gas in a cell; for several gases, that of the stiffened gas equivalent to their mixture. `free` is the
-/// free volume of the cell.
+/// The law of the gas in a cell; for several gases, that of the stiffened gas equivalent to their mixture. `free` is
+/// the free volume of the cell.
 template <int D, class T>
 euler::Gas lawAt(const Settings& settings, const euler::MixtureViews<D, T>& held, double free, const Index<D>& cell) {
   if (settings.gases.empty()) return settings.gas.gas;

@@ -193,14 +193,13 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                  computes(total::mergedCells));
   shareScalars(tasks);
   const auto reacting = all<ReactingGas<D>>(settings_.gases.size());
-  if (areBlended(settings_)) tasks.perPatch("mpmice::closeGases", closeGases<D>, with(settings_), reacting);
   if (!settings_.reactions.empty())
     tasks.perPatch("mpmice::reactGases", reactGases<D>, with(settings_), requiresOld(delT), reacting);
   scheduleHeat(tasks, materials);
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
-  if (areBlended(settings_) && (hasHeat() || settings_.heating.acts() || !settings_.reactions.empty()))
+  if (areBlended(settings_))
     tasks.perPatch("mpmice::closeGases", closeGases<D>, with(settings_), reacting);
   scheduleSums(tasks, materials);
   if (burns())

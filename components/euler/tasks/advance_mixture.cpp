@@ -80,8 +80,8 @@ template <int D>
 void refuseBlend(const Level& level, const Index<D>& cell, const std::array<double, kMostGases>& masses,
                  double energy) {
   const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
-  throw NumericalError(fmt::format("the gases of the cell at ({:g}, {:g}, {:g}) m became impossible: {:.6g} kg/m^3 with "
-                                   "the internal energy {:.6g} J/m^3",
+  throw NumericalError(fmt::format("the gases of the cell at ({:g}, {:g}, {:g}) m became impossible: {:.6g} kg/m^3 "
+                                   "with the internal energy {:.6g} J/m^3",
                                    at[0], at[1], at[2], fmt::join(masses, " + "), energy),
                        "", "c.density", level.cellNumber<D>(cell));
 }

@@ -114,14 +114,14 @@ AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 
-/// Sets the volume fractions of gases with laws of their own to those in equilibrium. Throws NumericalError for the first
-/// cell with an impossible state, if there is one.
+/// Sets the volume fractions of gases with laws of their own to those in equilibrium. Throws NumericalError for the
+/// first cell with an impossible state, if there is one.
 template <int D>
 void closeBlend(const Patch& patch, const std::vector<Settings>& gases, CellView<const double> density,
                 CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
                 const std::vector<CellView<const double>>& masses, const std::vector<CellView<double>>& shares);
-/// Throws NumericalError for a cell whose gases, with laws of their own, have no equilibrium, given the mass [kg/m³] of
-/// each and the internal energy [J/m³] of all, per volume of the gas.
+/// Throws NumericalError for a cell whose gases, with laws of their own, have no equilibrium, given the mass [kg/m³]
+/// of each and the internal energy [J/m³] of all, per volume of the gas.
 template <int D>
 [[noreturn]] void refuseBlend(const Level& level, const Index<D>& cell, const std::array<double, kMostGases>& masses,
                               double energy);

@@ -72,8 +72,8 @@ void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, 
       }
       if (gas.blend)
         return blendRow<D, gases>(*gas.blend, rowOf(old.density, first, count),
-                                  rowOf(old.momentum, first, count)->data(), rowOf(old.totalEnergy, first, count), count,
-                                  w.at(first));
+                                  rowOf(old.momentum, first, count)->data(), rowOf(old.totalEnergy, first, count),
+                                  count, w.at(first));
     }
     recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
                   rowOf(old.totalEnergy, first, count), count, w.at(first));

@@ -39,7 +39,7 @@ void recoverRow(const G& gas, const double* density, const double* momentum, con
   }
 }
 
-/// Computes p and, in place of the volume fractions, G and S of gases with laws of their own, and rho, v, as recoverRow.
+/// Like recoverRow for gases with laws of their own: also computes G and S, in place of the volume fractions.
 template <int D, int K>
 void blendRow(const BlendLaws& laws, const double* density, const double* momentum, const double* energy, int count,
               const Pointers<D, K>& w) {
@@ -131,9 +131,9 @@ void closeRow(int count, const Pointers<D, K>& values) {
   }
 }
 
-/// Sets the density of gases with laws of their own to the sum of their masses, and S so that the energy per volume e = p
-/// G + S has a limited slope, like the masses; `sign` is -1 for the lower faces of the cells, 1 for the upper ones. So
-/// p and v stay uniform across a contact.
+/// Sets the density of gases with laws of their own to the sum of their masses, and S so that the energy per volume e =
+/// p G + S has a limited slope, like the masses; `sign` is -1 for the lower faces of the cells, 1 for the upper ones.
+/// So p and v stay uniform across a contact.
 template <class Limited, int D, int K>
 void closeBlendRow(const Pointers<D, K>& below, const Pointers<D, K>& w, const Pointers<D, K>& above, int count,
                    double sign, const Pointers<D, K>& values) {

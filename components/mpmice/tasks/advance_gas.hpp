@@ -134,7 +134,8 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
   });
 }
 
-/// Whether the gas of a cell has a possible state. For several gases, refuseFarGas checks it.
+/// Whether the gas of a cell has a possible state. For several gases, refuseFarGas checks it or, if they have laws of
+/// their own, closeGases at the end of the step.
 template <int D, class G>
 bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, double>& fresh) {
   if constexpr (euler::kGases < G >> 1)
@@ -231,7 +232,7 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
     fine = advance(gas);
   else
     fine = advance(euler::lawOf<euler::StiffenedGas>(gas));
-  if (!fine) refuseFarGas<D>(patch, settings, near, cells, fresh.held);
+  if (!fine && !areBlended(settings)) refuseFarGas<D>(patch, settings, near, cells, fresh.held);
 }
 
 template <int D>

@@ -149,7 +149,7 @@ void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& m
                   const std::optional<CellView<double>>& heat) {
   if (heat) heat->fill(0);
   const HeatExchange<D, Most> exchange(patch, materials, settings, gas, bodies);
-  const bool hasGasAlone = !settings.gases.empty() || settings.heating.acts();
+  const bool hasGasAlone = (!settings.gases.empty() && !areBlended(settings)) || settings.heating.acts();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const bool hasBody = std::any_of(bodies.begin(), bodies.end(),
                                      [&](const WarmBodies& body) { return body.mass.template in<D>(cell).size() > 0; });

@@ -36,12 +36,20 @@ struct ReactingGas {
   euler::Blend blend(const Settings& settings, const Index<D>& cell) const {
     return settings.gases.front().blend->at(own(cell).data(), energy(cell));
   }
-  double pressure(const Settings& settings, const Index<D>& cell) const {
-    if (areBlended(settings)) return blend(settings, cell).pressure;
+  /// What a reaction finds in a cell that contains gas: its masses and volume fraction, and the pressure.
+  std::pair<ice::Reactants, double> reactants(const Settings& settings, const ice::Reaction& one,
+                                              const Index<D>& cell) const {
+    ice::Reactants there{masses[one.from][cell] / free[cell], masses[one.to][cell] / free[cell],
+                         shares[one.from][cell]};
+    if (areBlended(settings)) {
+      const euler::Blend all = blend(settings, cell);
+      there.share = all.shares[one.from];
+      return {there, all.pressure};
+    }
     euler::MixedGas mixed;
     for (std::size_t k = 0; k < shares.size(); ++k)
       mixed.add(shares[k][cell], settings.gases[k].gas.gamma, settings.gases[k].gas.pInfinity);
-    return mixed.pressure(density[cell] / free[cell], energy(cell));
+    return {there, mixed.pressure(density[cell] / free[cell], energy(cell))};
   }
 };
 
@@ -51,14 +59,13 @@ void reactAt(const Settings& settings, const ice::Reaction& one, double dt, cons
              const Index<D>& cell) {
   double &from = gas.masses[one.from][cell], &to = gas.masses[one.to][cell];
   if (gas.isEmpty(cell) || !(from > 0)) return;
-  double &share = gas.shares[one.from][cell], free = gas.free[cell];
-  const ice::Reactants there{from / free, to / free, share};
-  const double part = there.converted(one.burn, gas.pressure(settings, cell), dt), burned = part * from;
+  const auto [there, pressure] = gas.reactants(settings, one, cell);
+  const double part = there.converted(one.burn, pressure, dt), burned = part * from;
   if (!(part > 0)) return;
   from = part < 1 ? from - burned : 0;
   to += burned;
-  gas.shares[one.to][cell] += part * share;
-  share = part < 1 ? share - part * share : 0;
+  gas.shares[one.to][cell] += part * there.share;
+  gas.shares[one.from][cell] = part < 1 ? there.share - part * there.share : 0;
   gas.totalEnergy[cell] += burned * one.burn.heat;
 }
 

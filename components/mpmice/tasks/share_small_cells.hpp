@@ -240,8 +240,9 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     emptyIfNothingLeft<D>(cell, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
-  near.forEachIn(patch.cells(),
-                 [&](const Index<D>& cell) { checkGas<D>(level, lawAt<D>(settings, fresh.held, fresh.free[cell], cell), cell, fresh); });
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
+    checkGas<D>(level, lawAt<D>(settings, fresh.held, fresh.free[cell], cell), cell, fresh);
+  });
 }
 
 }  // namespace tushar::mpmice
