@@ -90,6 +90,8 @@ class CurvedGas {
       : cold_(cold), gamma_(gamma), specificHeat_(specificHeat) {}
 
   const ColdCurve& cold() const { return cold_; }
+  /// The Grüneisen parameter; with a linear cold curve, its value at rho_0.
+  double gruneisen() const { return gamma_; }
   bool isBarotropic() const { return gamma_ == 0; }
 
   /// The pressure p [Pa] at a density and an internal energy per volume [J/m³].

@@ -51,10 +51,14 @@ struct MixedGas {
 /// The largest number of gases.
 inline constexpr int kMostGases = 3;
 
-/// The laws of K gases that share cells.
+class BlendLaws;
+
+/// The laws of K gases that share cells. If one of them has its own law, `blend` has the laws; states then contain G
+/// and S of their cells in place of the first two volume fractions, and 0 in place of the third (see blend.hpp).
 template <int K>
 struct Mixture {
   std::array<double, K> softness{}, stiffness{};
+  const BlendLaws* blend = nullptr;
 };
 template <int K>
 inline constexpr int kGases<Mixture<K>> = K;

@@ -35,6 +35,8 @@ struct Method {
   Limiter limiter = Limiter::vanLeer;
 };
 
+class BlendLaws;
+
 /// The `Euler` section.
 struct Settings {
   Location where;                 ///< in the scene
@@ -45,6 +47,8 @@ struct Settings {
   bool objectsMayBeEmpty = false;
   double cfl = 0.8;  ///< Courant number: dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
+  /// The laws of all gases that share cells with this one, if one of them has its own law; otherwise null.
+  std::shared_ptr<const BlendLaws> blend = nullptr;
   std::vector<GasObject> objects;  ///< regions with their initial gas; where they overlap, the last one applies
   /// Changes the initial velocity and, for objects with a temperature, the initial temperature at a point with the
   /// density `rho`.

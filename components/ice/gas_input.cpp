@@ -159,6 +159,7 @@ void takeModels(ModelsSection& models, const Element& root, int solids, GasScene
   scene.massExchanges = std::move(models.massExchanges);
   scene.burns = std::move(models.burns);
   scene.programs = std::move(models.programs);
+  scene.reactions = std::move(models.reactions);
   scene.binary = std::move(models.binary);
   std::set<std::string> bodies;
   const auto mpm = root.child("MaterialProperties")->child("MPM");
@@ -234,6 +235,18 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
   readMaterials(materials, root, solids, scene, diagnostics);
   return scene;
+}
+
+std::vector<Reaction> reactionsOf(const GasScene& scene) {
+  const auto indexOf = [&](const std::string& name) {
+    const auto isIt = [&](const euler::Settings& gas) { return gas.name == name; };
+    const auto& gases = scene.mixture;
+    return static_cast<std::size_t>(std::find_if(gases.begin(), gases.end(), isIt) - gases.begin());
+  };
+  std::vector<Reaction> reactions;
+  for (const PressureBurn& one : scene.reactions)
+    reactions.push_back({indexOf(one.from), indexOf(one.to), one});
+  return reactions;
 }
 
 std::vector<simulation::SectionForm> gasForms() {

@@ -9,6 +9,7 @@
 #include "components/ice/heat_coefficients.hpp"
 #include "components/ice/heating.hpp"
 #include "components/ice/mixture/binary_properties.hpp"
+#include "components/ice/mixture/pressure_burn.hpp"
 #include "components/ice/mixture/programmed_burn.hpp"
 #include "components/ice/scalar.hpp"
 #include "core/input/diagnostics.hpp"
@@ -64,9 +65,13 @@ struct GasScene {
   std::vector<euler::Diffusion> diffusions = {};  ///< diffusion of each gas, if there are several
   std::vector<MassExchange> massExchanges = {};   ///< mass exchanges between gases
   std::vector<BurnModel> burns = {};              ///< burn models of bodies
+  std::vector<PressureBurn> reactions = {};       ///< burns by JWL++, by which one gas becomes another
   std::vector<ProgrammedBurn> programs = {};      ///< programmed burns, by which one gas becomes another
   std::optional<BinaryProperties> binary = {};    ///< set if the only gas of the scene is a mixture of two
 };
+
+/// The reactions of a scene, with the indices of its gases.
+std::vector<Reaction> reactionsOf(const GasScene& scene);
 
 /// The reason why implicit steps need a grid of one level.
 inline constexpr const char* pressureOnOneLevel =

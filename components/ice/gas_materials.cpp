@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "components/euler/blend.hpp"
 #include "components/euler/labels.hpp"
 #include "components/ice/mixture/input.hpp"
 #include "components/ice/uintah_words.hpp"
@@ -141,6 +143,18 @@ void readOneGas(const GasMaterial& material, const Element& element, GasScene& s
                       "it, or run with --set CFD/ICE/explicit=true");
 }
 
+/// Whether another gas becomes the gas with this name, which then need not be anywhere at the start.
+bool isMade(const std::string& name, const GasScene& scene) {
+  const auto makesIt = [&](const auto& one) { return one.to == name; };
+  return std::any_of(scene.reactions.begin(), scene.reactions.end(), makesIt) ||
+         std::any_of(scene.programs.begin(), scene.programs.end(), makesIt);
+}
+
+/// Whether one of several gases is neither ideal nor stiffened.
+bool haveOwnLaws(const std::vector<GasMaterial>& materials) {
+  return std::any_of(materials.begin(), materials.end(), [](const GasMaterial& one) { return one.law() != nullptr; });
+}
+
 void readGases(const std::vector<GasMaterial>& materials, const Element& root, GasScene& scene,
                Diagnostics& diagnostics) {
   const auto elements = root.child("MaterialProperties")->child("ICE")->children("material");
@@ -150,8 +164,15 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
     settings.gas.material += static_cast<int>(k);
     readMaterial(materials[k], elements[k], false, settings, diagnostics);
     if (settings.name.empty()) settings.name = fmt::format("gas{}", k);
+    settings.objectsMayBeEmpty = isMade(settings.name, scene);
     scene.mixture.push_back(settings);
     scene.diffusions.push_back({materials[k].viscosity, materials[k].conductivity});
+  }
+  if (haveOwnLaws(materials)) {
+    std::vector<euler::Gas> gases;
+    for (const euler::Settings& one : scene.mixture) gases.push_back(one.gas);
+    const auto laws = std::make_shared<const euler::BlendLaws>(gases);
+    for (euler::Settings& one : scene.mixture) one.blend = laws;
   }
   checkMixture(materials, root, scene, scene.gas.gas.material, diagnostics);
 }
@@ -182,6 +203,15 @@ void readBinary(const GasMaterial& material, const Element& root, GasScene& scen
   checkMixture({material}, root, scene, scene.gas.gas.material, diagnostics);
 }
 
+/// Where a scene converts gases into others.
+std::vector<const Location*> conversions(const GasScene& scene) {
+  std::vector<const Location*> places;
+  for (const MassExchange& one : scene.massExchanges) places.push_back(&one.where);
+  for (const ProgrammedBurn& one : scene.programs) places.push_back(&one.where);
+  for (const PressureBurn& one : scene.reactions) places.push_back(&one.where);
+  return places;
+}
+
 }  // namespace
 
 std::shared_ptr<const euler::Gas::Law> GasMaterial::law() const {
@@ -207,9 +237,8 @@ void readMaterials(const std::vector<GasMaterial>& materials, const Element& roo
                              "<material>");
   if (scene.binary) return readBinary(materials.front(), root, scene, diagnostics);
   if (materials.size() > 1) return readGases(materials, root, scene, diagnostics);
-  if (!scene.massExchanges.empty() || !scene.programs.empty())
-    diagnostics.error(scene.programs.empty() ? scene.massExchanges.front().where : scene.programs.front().where,
-                      "Models/Model", "there is one gas, which cannot become another");
+  for (const Location* one : conversions(scene))
+    diagnostics.error(*one, "Models/Model", "there is one gas, which cannot become another");
   readOneGas(materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"), scene, diagnostics);
   checkInflows(root, scene.gas.gas, diagnostics);
 }

@@ -159,6 +159,7 @@ struct ModelsSection {
   std::vector<ScalarSettings> scalars;
   std::vector<MassExchange> massExchanges;
   std::vector<BurnModel> burns;
+  std::vector<PressureBurn> reactions;
   std::vector<ProgrammedBurn> programs;
   std::optional<BinaryProperties> binary;
 };

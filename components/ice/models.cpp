@@ -18,8 +18,8 @@ using input::Schema;
 namespace {
 
 /// The values of the attribute `type` of a <Model>.
-const std::vector<std::string> modelTypes{"PassiveScalar", "Test",      "Simple_Burn",     "Steady_Burn",
-                                          "DDT1",          "LightTime", "BinaryProperties"};
+const std::vector<std::string> modelTypes{"PassiveScalar", "Test",  "Simple_Burn", "Steady_Burn",
+                                          "DDT1",          "JWLpp", "LightTime",   "BinaryProperties"};
 
 const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
@@ -149,6 +149,12 @@ void readProgram(const Element& model, ModelsSection& models, Diagnostics& diagn
   models.programs.push_back(programmedBurnSchema().read(*given, diagnostics));
 }
 
+void readReaction(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
+  const auto given = model.child("JWLpp");
+  if (!given) return diagnostics.error(model, "missing tag <JWLpp> in <Model>");
+  models.reactions.push_back(pressureBurnSchema().read(*given, diagnostics));
+}
+
 void readBinary(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const auto given = model.child("BinaryProperties");
   if (!given) return diagnostics.error(model, "missing tag <BinaryProperties> in <Model>");
@@ -161,6 +167,7 @@ void readBinary(const Element& model, ModelsSection& models, Diagnostics& diagno
 void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const std::string type = model.attribute("type").value_or("");
   if (type == "Test") return readExchange(model, models, diagnostics);
+  if (type == "JWLpp") return readReaction(model, models, diagnostics);
   if (type == "LightTime") return readProgram(model, models, diagnostics);
   if (type == "BinaryProperties") return readBinary(model, models, diagnostics);
   if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
@@ -208,14 +215,16 @@ const Schema<ModelsSection>& modelsSchema() {
               {"Model"},
               "type=\"PassiveScalar\": a quantity per mass that is transported with the gas; type=\"Test\": one "
               "material is converted into another one; type=\"Simple_Burn\", type=\"Steady_Burn\", type=\"DDT1\": a "
-              "body burns; type=\"LightTime\": a gas detonates at given times; type=\"BinaryProperties\": the gas "
-              "consists of two gases at one temperature",
+              "body burns; type=\"JWLpp\": a gas burns at a rate that depends on the pressure; type=\"LightTime\": a "
+              "gas detonates at given times; type=\"BinaryProperties\": the gas consists of two gases at one "
+              "temperature",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
                 simpleBurnSchema().describe(out, indent);
                 steadyBurnSchema().describe(out, indent);
                 ddtSchema().describe(out, indent);
+                pressureBurnSchema().describe(out, indent);
                 programmedBurnSchema().describe(out, indent);
                 describeBinaryProperties(out, indent);
               })

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/euler/tasks/diffuser.hpp"
-#include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/gas_temperature.hpp"
 
 namespace tushar::mpmice {
 
@@ -10,7 +10,7 @@ template <int D>
 euler::DiffusingCell<D> diffusingAt(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                                     const Index<D>& cell) {
   euler::DiffusingCell<D> one;
-  const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
+  const euler::Gas gas = lawAt<D>(settings, cells.held, cells.free[cell], cell);
   const euler::State<D> u = cells.conserved(cell), w = euler::primitive<D>(gas, u);
   one.density = u[euler::kDensity];
   for (int d = 0; d < D; ++d) one.w[euler::kVelocity(d)] = w[euler::kVelocity(d)];
@@ -32,7 +32,7 @@ euler::DiffusingCell<D> diffusingAt(const Level& level, const Settings& settings
     one.how.conductivity += held.shares[k] * settings.diffusion.ofEach[k].conductivity;
   }
   one.specificHeat = capacity / one.density;
-  one.w[euler::kTemperature] = internal / capacity;
+  one.w[euler::kTemperature] = areBlended(settings) ? gasTemperature<D>(settings, cells, cell) : internal / capacity;
   return one;
 }
 

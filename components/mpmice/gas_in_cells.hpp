@@ -26,10 +26,27 @@ struct Parcel {
   }
 };
 
-/// The law of the gas in a cell; for several gases, that of the stiffened gas equivalent to their mixture.
+/// The equilibrium of gases with laws of their own in the free volume of a cell that contains gas.
 template <int D, class T>
-euler::Gas lawAt(const Settings& settings, const euler::MixtureViews<D, T>& held, const Index<D>& cell) {
+euler::Blend blendAt(const Settings& settings, const euler::MixtureViews<D, T>& held, double free,
+                     const Index<D>& cell) {
+  std::array<double, euler::kMostGases> masses{};
+  for (std::size_t k = 0; k < held.masses.size(); ++k) masses[k] = held.masses[k][cell] / free;
+  return settings.gases.front().blend->at(masses.data(), euler::internalEnergyIn<D, T>(held, cell) / free);
+}
+
+/// Whether one of several gases is neither ideal nor stiffened.
+inline bool areBlended(const Settings& settings) { return !settings.gases.empty() && settings.gases.front().blend; }
+
+/// The law of the gas in a cell; for several gases, that of the stiffened gas equivalent to their mixture. `free` is
+/// the free volume of the cell.
+template <int D, class T>
+euler::Gas lawAt(const Settings& settings, const euler::MixtureViews<D, T>& held, double free, const Index<D>& cell) {
   if (settings.gases.empty()) return settings.gas.gas;
+  if (areBlended(settings)) {
+    if (free < leastFreeVolume || !(held.density[cell] > 0)) return {};
+    return blendAt<D, T>(settings, held, free, cell).law(euler::internalEnergyIn<D, T>(held, cell) / free).alike();
+  }
   euler::MixedGas mixed;
   for (std::size_t k = 0; k < settings.gases.size(); ++k)
     mixed.add(held.shares[k][cell], settings.gases[k].gas.gamma, settings.gases[k].gas.pInfinity);
@@ -115,7 +132,7 @@ struct GasInCells {
         u[euler::kMass<D>(k)] = own.masses[k];
         u[euler::kShare<D, K>(k)] = own.shares[k];
       }
-      return euler::primitive<D>(gas, u);
+      return gas.blend ? gas.blend->template recover<D, K>(u) : euler::primitive<D>(gas, u);
     }
   }
 };

@@ -19,6 +19,7 @@ double gasTemperature(const Settings& settings, const GasInCells<D>& cells, cons
     const euler::State<D> w = cells.primitive(settings.gas.gas, cell);
     return temperatureOf(settings.gas.gas, w[euler::kDensity], w[euler::kPressure<D>]);
   }
+  if (areBlended(settings)) return blendAt<D, const double>(settings, cells.held, cells.free[cell], cell).temperature;
   double heat = euler::internalEnergyIn<D, const double>(cells.held, cell), capacity = 0;
   for (std::size_t k = 0; k < settings.gases.size(); ++k) {
     heat -= cells.free[cell] * cells.held.shares[k][cell] * settings.gases[k].gas.pInfinity;

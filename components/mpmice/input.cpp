@@ -243,6 +243,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   settings.heating = scene.heating;
   settings.scalars = scene.scalars;
   settings.gases = scene.mixture;
+  settings.reactions = ice::reactionsOf(scene);
   if (scene.implicit && (areRigid || !needsNoImplicitSteps(scene, bodies.materials, root, diagnostics)))
     settings.implicit = {.diffusion = scene.varying.varies() ? euler::Diffusion() : scene.varying.uniform,
                          .gravity = scene.gravity,

@@ -13,6 +13,7 @@
 #include "components/mpmice/tasks/exchange_heat.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
+#include "components/mpmice/tasks/react_gas.hpp"
 #include "components/mpmice/tasks/refine_gas.hpp"
 #include "components/mpmice/tasks/share_scalar.hpp"
 #include "components/mpmice/tasks/share_small_cells.hpp"
@@ -191,10 +192,15 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
   shareScalars(tasks);
+  const auto reacting = all<ReactingGas<D>>(settings_.gases.size());
+  if (!settings_.reactions.empty())
+    tasks.perPatch("mpmice::reactGases", reactGases<D>, with(settings_), requiresOld(delT), reacting);
   scheduleHeat(tasks, materials);
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
+  if (areBlended(settings_))
+    tasks.perPatch("mpmice::closeGases", closeGases<D>, with(settings_), reacting);
   scheduleSums(tasks, materials);
   if (burns())
     tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresOld(p::mass), requiresNew(p::mass),

@@ -6,6 +6,7 @@
 #include "components/ice/face_flow.hpp"
 #include "components/ice/heat_coefficients.hpp"
 #include "components/ice/heating.hpp"
+#include "components/ice/mixture/pressure_burn.hpp"
 #include "components/ice/scalar.hpp"
 #include "core/core.hpp"
 
@@ -52,6 +53,7 @@ struct Settings {
   std::optional<ice::IceSettings> implicit = {};  ///< settings of implicit steps, if sound does not limit the steps
   ice::Heating heating = {};                      ///< heating of the gases
   std::vector<euler::Settings> gases = {};        ///< each gas, if several share cells; the first is `gas`
+  std::vector<ice::Reaction> reactions = {};      ///< reactions by which one gas becomes another
   std::optional<Burning> burning = {};            ///< the body that burns, if any
   std::vector<ice::ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
 };

@@ -1,5 +1,7 @@
 #include "components/euler/tasks/advance_mixture.hpp"
 
+#include <fmt/ranges.h>
+
 #include "components/euler/tasks/advance_patch.hpp"
 #include "components/euler/tasks/mend_new_cells.hpp"
 
@@ -11,6 +13,9 @@ namespace {
 template <int D, class Held, class T>
 bool isPossible(const std::vector<Settings>& gases, const std::vector<Held>& held, const StateViews<D, T>& state,
                 const Index<D>& cell) {
+  const double energy = internalEnergyIn<D>(state, cell);
+  if (gases.front().blend)
+    return state.density[cell] > 0 && gases.front().blend->at(massesIn(held, cell).data(), energy).isPossible;
   const Gas alike = mixedAt(gases, held, cell).alike();
   return canBe<D>(alike, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
 }
@@ -22,6 +27,8 @@ void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases,
                          const StateViews<D, T>& state) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (isPossible<D>(gases, held, state, cell)) return;
+    if (gases.front().blend)
+      refuseBlend<D>(patch.level(), cell, massesIn(held, cell), internalEnergyIn<D>(state, cell));
     refuseState<D, T>(patch.level(), mixedAt(gases, held, cell).alike(), cell, state, nullptr);
   });
 }
@@ -42,7 +49,7 @@ void advanceMixture(const Patch& patch, const std::vector<Settings>& gases, cons
   const auto before = viewsOf<const double, D>(old, oldGases);
   const auto after = viewsOf<double, D>(fresh, newGases);
   advanceCells<D, Hllc, Shape>(mixture, level, rules, patch.cells(), dt, before, after, allRims, [](const Box&) {});
-  refuseBrokenMixture<D>(patch, gases, newGases, fresh);
+  if (!mixture.blend) refuseBrokenMixture<D>(patch, gases, newGases, fresh);
 }
 
 template <int D, int K>
@@ -66,6 +73,31 @@ void closeShares(const Patch& patch, const std::vector<Settings>&, const std::ve
     for (const CellView<double>& share : shares) sum += share[cell];
     if (std::abs(sum - 1) > roundOff)
       for (const CellView<double>& share : shares) share[cell] /= sum;
+  });
+}
+
+template <int D>
+void refuseBlend(const Level& level, const Index<D>& cell, const std::array<double, kMostGases>& masses,
+                 double energy) {
+  const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
+  throw NumericalError(fmt::format("the gases of the cell at ({:g}, {:g}, {:g}) m became impossible: {:.6g} kg/m^3 "
+                                   "with the internal energy {:.6g} J/m^3",
+                                   at[0], at[1], at[2], fmt::join(masses, " + "), energy),
+                       "", "c.density", level.cellNumber<D>(cell));
+}
+
+template <int D>
+void closeBlend(const Patch& patch, const std::vector<Settings>& gases, CellView<const double> density,
+                CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
+                const std::vector<CellView<const double>>& masses, const std::vector<CellView<double>>& shares) {
+  const BlendLaws& laws = *gases.front().blend;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double energy = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
+    std::array<double, kMostGases> held{};
+    for (std::size_t k = 0; k < masses.size(); ++k) held[k] = masses[k][cell];
+    const Blend blend = laws.at(held.data(), energy);
+    if (!(density[cell] > 0) || !blend.isPossible) refuseBlend<D>(patch.level(), cell, held, energy);
+    for (std::size_t k = 0; k < shares.size(); ++k) shares[k][cell] = blend.shares[k];
   });
 }
 
@@ -98,11 +130,13 @@ void mendNewMixture(const Patch&, const std::vector<Settings>& gases, const std:
 template <int D>
 void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, double cfl, const OldState<D>& old,
                       const std::vector<OldGas>& held, Minimum& dt) {
-  refuseBrokenMixture<D, OldGas, const double>(patch, gases, held, old);
+  if (!gases.front().blend) refuseBrokenMixture<D, OldGas, const double>(patch, gases, held, old);
   double greatest = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const MixedGas mixed = mixedAt(gases, held, cell);
-    const double rho = old.density[cell], p = mixed.pressure(rho, internalEnergyIn<D, const double>(old, cell));
+    const double energy = internalEnergyIn<D, const double>(old, cell);
+    const MixedGas mixed = lawAt(gases, held, energy, cell);
+    const double rho = old.density[cell], p = mixed.pressure(rho, energy);
+    if (gases.front().blend && !(mixed.softness > 0)) refuseBlend<D>(patch.level(), cell, massesIn(held, cell), energy);
     const double c = std::sqrt(mixed.soundSpeedSquared(rho, p));
     double rate = 0;
     for (int d = 0; d < D; ++d) rate += (std::abs(old.momentum[cell][d]) / rho + c) * patch.level().inverseSpacing(d);
@@ -120,6 +154,10 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, do
   template void closeShares<D>(const Patch&, const std::vector<Settings>&, const std::vector<CellView<double>>&); \
   template void mendNewMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,            \
                                   const ChangedState<D>&, const std::vector<ChangedGas>&);                        \
+  template void closeBlend<D>(const Patch&, const std::vector<Settings>&, CellView<const double>,                 \
+                              CellView<const Vec<D>>, CellView<const double>,                                     \
+                              const std::vector<CellView<const double>>&, const std::vector<CellView<double>>&);  \
+  template void refuseBlend<D>(const Level&, const Index<D>&, const std::array<double, kMostGases>&, double);     \
   template void limitMixtureStep<D>(const Patch&, const std::vector<Settings>&, double, const OldState<D>&,       \
                                     const std::vector<OldGas>&, Minimum&);
 TUSHAR_MIXTURE(1)

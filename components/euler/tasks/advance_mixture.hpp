@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/euler/blend.hpp"
 #include "components/euler/boundary.hpp"
 #include "components/euler/tasks/advance.hpp"
 
@@ -29,10 +30,31 @@ MixedGas mixedAt(const std::vector<Settings>& gases, const std::vector<Held>& he
   return mixed;
 }
 
+/// The masses of each gas in a cell; 0 for gases that do not exist.
+template <class Held, int D>
+std::array<double, kMostGases> massesIn(const std::vector<Held>& held, const Index<D>& cell) {
+  std::array<double, kMostGases> masses{};
+  for (std::size_t k = 0; k < held.size(); ++k) masses[k] = held[k].mass[cell];
+  return masses;
+}
+
+/// The same for gases of any law, given the internal energy per volume [J/m³].
+template <class Held, int D>
+MixedGas lawAt(const std::vector<Settings>& gases, const std::vector<Held>& held, double energy,
+               const Index<D>& cell) {
+  if (!gases.front().blend) return mixedAt(gases, held, cell);
+  return gases.front().blend->at(massesIn(held, cell).data(), energy).law(energy);
+}
+
 /// The laws of K gases.
 template <int K>
 Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
   Mixture<K> mixture;
+  mixture.blend = gases.front().blend.get();
+  if (mixture.blend) {  // states contain G and S themselves
+    mixture.softness[0] = mixture.stiffness[1] = 1;
+    return mixture;
+  }
   for (int k = 0; k < K; ++k) {
     MixedGas pure;
     pure.add(1, gases[k].gas.gamma, gases[k].gas.pInfinity);
@@ -92,6 +114,18 @@ AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 /// were corrected. The sum contains the correction of the flux of volume. Other cells are unchanged.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
+
+/// Sets the volume fractions of gases with laws of their own to those in equilibrium. Throws NumericalError for the
+/// first cell with an impossible state, if there is one.
+template <int D>
+void closeBlend(const Patch& patch, const std::vector<Settings>& gases, CellView<const double> density,
+                CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
+                const std::vector<CellView<const double>>& masses, const std::vector<CellView<double>>& shares);
+/// Throws NumericalError for a cell whose gases, with laws of their own, have no equilibrium, given the mass [kg/m³]
+/// of each and the internal energy [J/m³] of all, per volume of the gas.
+template <int D>
+[[noreturn]] void refuseBlend(const Level& level, const Index<D>& cell, const std::array<double, kMostGases>& masses,
+                              double energy);
 
 /// Views of the variables of one of several gases that regridding changes.
 struct ChangedGas {

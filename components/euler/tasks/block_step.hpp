@@ -65,11 +65,16 @@ template <int D, class G>
 void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, kGases<G>, const double>& old,
              Rows<D, kGases<G>>& w) {
   forEachRow<D>(level.clipCells(box), [&](const Index<D>& first, int count) {
-    if constexpr (constexpr int gases = kGases<G>; gases > 1)
+    if constexpr (constexpr int gases = kGases<G>; gases > 1) {
       for (int k = 0; k < gases; ++k) {
         std::copy_n(rowOf(old.masses[k], first, count), count, w.at(first)[kMass<D>(k)]);
         std::copy_n(rowOf(old.shares[k], first, count), count, w.at(first)[kShare<D, gases>(k)]);
       }
+      if (gas.blend)
+        return blendRow<D, gases>(*gas.blend, rowOf(old.density, first, count),
+                                  rowOf(old.momentum, first, count)->data(), rowOf(old.totalEnergy, first, count),
+                                  count, w.at(first));
+    }
     recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
                   rowOf(old.totalEnergy, first, count), count, w.at(first));
   });
@@ -83,9 +88,14 @@ void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, W
   const auto lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
   for (std::size_t k = 0; k < w.size(); ++k)
     reconstructRow<Limited>(below[k], w[k], above[k], count, lower[k], upper[k]);
-  if constexpr (kGases < G >> 1) {
-    closeRow<D, kGases<G>>(count, lower);
-    closeRow<D, kGases<G>>(count, upper);
+  if constexpr (constexpr int K = kGases<G>; K > 1) {
+    if (gas.blend) {
+      closeBlendRow<Limited, D, K>(below, w, above, count, -1, lower);
+      closeBlendRow<Limited, D, K>(below, w, above, count, 1, upper);
+    } else {
+      closeRow<D, K>(count, lower);
+      closeRow<D, K>(count, upper);
+    }
   }
   halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/euler/blend.hpp"
 #include "components/euler/fluxes.hpp"
 #include "components/euler/rows.hpp"
 
@@ -11,6 +12,16 @@ namespace tushar::euler {
 
 template <int D, int K = 1>
 using Pointers = typename Rows<D, K>::Pointers;
+
+/// Whether states of gases contain G and S in place of volume fractions; never those of one gas.
+template <class G>
+constexpr bool areBlended(const G&) {
+  return false;
+}
+template <int K>
+constexpr bool areBlended(const Mixture<K>& gases) {
+  return gases.blend != nullptr;
+}
 
 /// Computes rho, v, p of `count` cells from rho, rho v (D numbers per cell) and E; for several gases, `w` already
 /// contains the masses and volume fractions.
@@ -25,6 +36,20 @@ void recoverRow(const G& gas, const double* density, const double* momentum, con
     for (int k = 0; k < D; ++k) u[kVelocity(k)] = momentum[i * D + k];
     u[kPressure<D>] = energy[i];
     store<D>(w, i, primitive<D>(gas, u));
+  }
+}
+
+/// Like recoverRow for gases with laws of their own: also computes G and S, in place of the volume fractions.
+template <int D, int K>
+void blendRow(const BlendLaws& laws, const double* density, const double* momentum, const double* energy, int count,
+              const Pointers<D, K>& w) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    State<D, K> u;
+    for (std::size_t k = D + 2; k < u.size(); ++k) u[k] = w[k][i];
+    u[kDensity] = density[i];
+    for (int k = 0; k < D; ++k) u[kVelocity(k)] = momentum[i * D + k];
+    u[kPressure<D>] = energy[i];
+    store<D>(w, i, laws.recover<D, K>(u));
   }
 }
 
@@ -73,6 +98,8 @@ void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointe
 template <int D, class G>
 void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, const Pointers<D, kGases<G>>& values,
                double* least) {
+  // In place of volume fractions there may be numbers of any sign.
+  const double offset = areBlended(gas) ? std::numeric_limits<double>::infinity() : 0.0;
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     State<D, kGases<G>> u = conserved<D>(gas, load<D>(values, i));
@@ -80,7 +107,11 @@ void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, co
     const State<D, kGases<G>> w = primitive<D>(gas, u);
     const double stiff = lawIn<D>(gas, w).heat(w[kDensity], w[kPressure<D>]);
     double lower = w[kDensity] < stiff ? w[kDensity] : stiff;
-    for (std::size_t k = D + 2; k < w.size(); ++k) lower = w[k] < 0 ? -1.0 : lower;
+    if constexpr (constexpr int gases = kGases<G>; gases > 1)
+      for (int k = 0; k < gases; ++k) {
+        lower = w[kMass<D>(k)] < 0 ? -1.0 : lower;
+        lower = w[kShare<D, gases>(k)] + offset < 0 ? -1.0 : lower;
+      }
     least[i] = lower < least[i] ? lower : least[i];
     store<D>(values, i, w);
   }
@@ -97,6 +128,25 @@ void closeRow(int count, const Pointers<D, K>& values) {
     for (std::size_t k = D + 2; k < values.size(); ++k) values[k][i] /= shares;
     for (int k = 0; k < K; ++k) density += values[kMass<D>(k)][i];
     values[kDensity][i] = density;
+  }
+}
+
+/// Sets the density of gases with laws of their own to the sum of their masses, and S so that the energy per volume e =
+/// p G + S has a limited slope, like the masses; `sign` is -1 for the lower faces of the cells, 1 for the upper ones.
+/// So p and v stay uniform across a contact.
+template <class Limited, int D, int K>
+void closeBlendRow(const Pointers<D, K>& below, const Pointers<D, K>& w, const Pointers<D, K>& above, int count,
+                   double sign, const Pointers<D, K>& values) {
+  const auto energy = [](const Pointers<D, K>& of, std::ptrdiff_t i) {
+    return of[kPressure<D>][i] * of[kShare<D, K>(0)][i] + of[kShare<D, K>(1)][i];
+  };
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    double density = 0;
+    for (int k = 0; k < K; ++k) density += values[kMass<D>(k)][i];
+    values[kDensity][i] = density;
+    const double own = energy(w, i), slope = Limited::slope(own - energy(below, i), energy(above, i) - own);
+    values[kShare<D, K>(1)][i] = own + sign * 0.5 * slope - values[kPressure<D>][i] * values[kShare<D, K>(0)][i];
   }
 }
 

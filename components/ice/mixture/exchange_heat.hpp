@@ -179,14 +179,15 @@ void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients
   const auto count = static_cast<Eigen::Index>(gases.size());
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double energy = euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
-    const double pressure = euler::mixedAt(gases, held, cell).pressure(density[cell], energy);
+    const bool areBlended = gases.front().blend != nullptr;  // then they have one temperature already
+    const double pressure = areBlended ? 1 : euler::mixedAt(gases, held, cell).pressure(density[cell], energy);
     WarmThings<euler::kMostGases> things(count);
     for (Eigen::Index k = 0; k < count; ++k)
       if (held[k].mass[cell] > leastPartOfMass * density[cell])
         things.setGas(k, gases[k].gas, held[k].mass[cell], held[k].share[cell], pressure);
     giveHeat(things, heating, time, dt, 0);
     totalEnergy[cell] += things.given.sum();
-    if (things.present() < 2) return;
+    if (areBlended || things.present() < 2) return;
     changeShares(changesByHeat(things, coefficients, dt), 0, 1,
                  [&](Eigen::Index k) -> double& { return held[k].share[cell]; });
   });

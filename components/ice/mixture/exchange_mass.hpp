@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "components/ice/mixture/pressure_burn.hpp"
 #include "components/ice/mixture/programmed_burn.hpp"
 #include "components/ice/mixture/tasks.hpp"
 
@@ -30,6 +31,29 @@ void transferMass(const Patch& patch, const Gases&, const Transfer& one, double 
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     move(held[one.from].mass, held[one.to].mass, cell);
     move(held[one.from].share, held[one.to].share, cell);
+  });
+}
+
+/// Converts a gas into another one at a rate that depends on the pressure, and adds the heat of the reaction. The
+/// product takes over the volume. Mass and momentum are conserved; the energy increases by this heat.
+template <int D>
+void reactGas(const Patch& patch, const Gases& gases, const Reaction& one, double dt, CellView<const double> density,
+              CellView<const Vec<D>> momentum, CellView<double> totalEnergy,
+              const std::vector<euler::ChangedGas>& held) {
+  const euler::ChangedGas &from = held[one.from], &to = held[one.to];
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Reactants there{from.mass[cell], to.mass[cell], from.share[cell]};
+    if (!(there.from > 0)) return;
+    const double energy = euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
+    const double pressure = euler::lawAt(gases, held, energy, cell).pressure(density[cell], energy);
+    const double part = there.converted(one.burn, pressure, dt), burned = part * there.from;
+    if (!(part > 0)) return;
+    from.mass[cell] = part < 1 ? there.from - burned : 0;
+    to.mass[cell] += burned;
+    const double share = part * there.share;
+    from.share[cell] = part < 1 ? there.share - share : 0;
+    to.share[cell] += share;
+    totalEnergy[cell] += burned * one.burn.heat;
   });
 }
 

@@ -14,7 +14,8 @@ using input::Element;
 
 namespace {
 
-/// Uintah's momentum exchange coefficients of at least this value are taken to mean that the gases share one velocity.
+/// Uintah's exchange coefficients of at least this value are taken to mean that the gases share one velocity or one
+/// temperature.
 constexpr double oneForAll = 1e9;
 
 /// Uintah's name of the mass fraction in BinaryProperties.
@@ -22,9 +23,10 @@ constexpr std::string_view fractionLabel = "scalar-f";
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
   const auto kind = material.state.kind;
-  if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
+  if (kind == EquationOfState::Kind::water || kind == EquationOfState::Kind::tst)
     diagnostics.error(*element.child("EOS"),
-                      "is not available with a second gas: several gases must be of type ideal_gas or stiffened_gas");
+                      "is not available with a second gas: several gases must be of type ideal_gas, stiffened_gas, "
+                      "JWL, JWLC, Murnaghan or Gruneisen");
   if (material.air)
     diagnostics.error(*element.child("SpecificHeatModel"),
                       "is not available with a second gas: remove it, or keep one gas");
@@ -53,6 +55,26 @@ void checkExchange(const GasScene& scene, const Element& root, int solids, Diagn
                                fmt::format("{:g} between gases is not available: gases share one velocity, so the "
                                            "value is expected to be 1e9 or more",
                                            momentum[pair]));
+}
+
+/// Checks what is not available if a gas has its own equation of state. The gases of a cell then have one temperature,
+/// so the exchange of heat between them must be fast.
+void checkBlend(const GasScene& scene, const Element& root, int solids, Diagnostics& diagnostics) {
+  if (scene.implicit)
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "is not available if one of several gases is neither ideal nor stiffened: remove it, or run with "
+                      "--set CFD/ICE/explicit=true");
+  if (!scene.exchange || scene.exchange->heatByMasses) return;
+  const std::size_t gases = scene.mixture.size(), count = gases + solids, pairs = count * (count - 1) / 2;
+  const std::vector<double>& heat = scene.exchange->heat;
+  if (heat.size() != pairs) return;
+  for (std::size_t pair = pairs - gases * (gases - 1) / 2; pair < pairs; ++pair)
+    if (heat[pair] < oneForAll)
+      return diagnostics.error(
+          scene.exchange->where, "MaterialProperties/exchange_properties/exchange_coefficients/heat",
+          fmt::format("{:g} between gases is not available if one of them is neither ideal nor stiffened: the gases of "
+                      "a cell then have one temperature, so the value is expected to be 1e9 or more",
+                      heat[pair]));
 }
 
 /// The Dirichlet value of a variable at a face, if it has one.
@@ -120,6 +142,7 @@ void checkExchangesOfMass(const GasScene& scene, Diagnostics& diagnostics) {
     if (from == to) diagnostics.error(where, path, "a gas cannot become itself");
   };
   for (const MassExchange& one : scene.massExchanges) check(one.where, "Models/Model/Test", one.from, one.to);
+  for (const PressureBurn& one : scene.reactions) check(one.where, "Models/Model/JWLpp", one.from, one.to);
   for (const ProgrammedBurn& one : scene.programs) check(one.where, "Models/Model/LightTime", one.from, one.to);
 }
 
@@ -138,6 +161,7 @@ void checkMixture(const std::vector<GasMaterial>& materials, const Element& root
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available with several gases; remove it, or keep one gas");
   if (!scene.binary) checkExchange(scene, root, solids, diagnostics);
+  if (scene.mixture.front().blend) checkBlend(scene, root, solids, diagnostics);
   checkExchangesOfMass(scene, diagnostics);
   checkSides(root, solids, scene.binary.has_value(), diagnostics);
 }

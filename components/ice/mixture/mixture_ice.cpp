@@ -42,6 +42,7 @@ MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
       diffusion_{scene.diffusions, scene.varying.smagorinsky, scene.binary.has_value()},
       transfers_(transfersOf(scene)),
       burning_(burningOf(scene)),
+      reactions_(reactionsOf(scene)),
       heat_(scene.exchange.value_or(Exchange()).heatCoefficients()),
       heating_(scene.heating),
       hasLevels_(hasLevels),
@@ -78,13 +79,27 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                         withoutMaterial(all<euler::OldState<D>>(ghost)), all<euler::OldGas>(ghost), startTime(),
                         requiresOld(delT), withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>(),
                         withoutMaterial(all<euler::RimFluxes<D>>(false)), all<euler::GasRims>());
-  if (hasLevels_)
+  if (areBlended())
+    scheduleClosing(tasks);
+  else if (hasLevels_)
     tasks.acrossMaterials("ice::closeShares", euler::closeShares<D>, gases_, modifies(euler::c::gasShare));
   scheduleSources(tasks);
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
   scheduleHeat(tasks);
+  const bool haveSources = !transfers_.empty() || !burning_.empty() || !reactions_.empty() || diffusion_.acts();
+  if (areBlended() && (haveSources || heating_.acts())) scheduleClosing(tasks);
+}
+
+/// Adds the task that finds the volume fractions of gases with laws of their own.
+template <int D>
+void MixtureIce<D>::scheduleClosing(TaskList& tasks) const {
+  tasks.acrossMaterials("ice::closeBlend", euler::closeBlend<D>, gases_,
+                        withoutMaterial(requiresNew(euler::c::density)),
+                        withoutMaterial(requiresNew(euler::c::momentum<D>)),
+                        withoutMaterial(requiresNew(euler::c::totalEnergy)), requiresNew(euler::c::gasMass),
+                        modifies(euler::c::gasShare));
 }
 
 template <int D>
@@ -94,6 +109,11 @@ void MixtureIce<D>::scheduleSources(TaskList& tasks) const {
                           all<euler::ChangedGas>());
   for (const BurningGas& one : burning_)
     tasks.acrossMaterials("ice::burnByProgram", burnByProgram<D>, gases_, with(one), startTime(),
+                          withoutMaterial(modifies(euler::c::totalEnergy)), all<euler::ChangedGas>());
+  for (const Reaction& one : reactions_)
+    tasks.acrossMaterials("ice::reactGas", reactGas<D>, gases_, with(one), requiresOld(delT),
+                          withoutMaterial(requiresNew(euler::c::density)),
+                          withoutMaterial(requiresNew(euler::c::momentum<D>)),
                           withoutMaterial(modifies(euler::c::totalEnergy)), all<euler::ChangedGas>());
   if (diffusion_.acts())
     tasks.acrossMaterials("ice::addMixtureDiffusion", addMixtureDiffusion<D>, gases_, with(diffusion_),
@@ -181,6 +201,9 @@ simulation::OtherNames MixtureIce<D>::otherNames() const {
 
 template <int D>
 std::vector<reference::GasLaw> MixtureIce<D>::gases() const {
+  if (areBlended())
+    throw std::invalid_argument(
+        "the exact solution is for ideal or stiffened gases, but a gas of the scene has another equation of state");
   std::vector<reference::GasLaw> laws;
   for (const euler::Settings& gas : gases_) laws.push_back({gas.gas.gamma, gas.gas.pInfinity});
   return laws;

@@ -45,6 +45,10 @@ class MixtureIce : public Component, public reference::GasSolution {
   void scheduleHeat(TaskList& tasks) const;
 
  private:
+  /// Whether a gas has its own law.
+  bool areBlended() const { return gases_.front().blend != nullptr; }
+  void scheduleClosing(TaskList& tasks) const;
+
   euler::Method method_;
   double cfl_;
   Vec3 gravity_, push_;
@@ -52,6 +56,7 @@ class MixtureIce : public Component, public reference::GasSolution {
   MixtureDiffusion diffusion_;
   std::vector<Transfer> transfers_;
   std::vector<BurningGas> burning_;
+  std::vector<Reaction> reactions_;
   HeatCoefficients heat_;
   Heating heating_;
   bool hasLevels_;

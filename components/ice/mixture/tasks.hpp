@@ -74,8 +74,8 @@ struct MixedCell {
   template <int D>
   static MixedCell of(const Gases& gases, const euler::OldState<D>& state, const std::vector<euler::OldGas>& held,
                       const Index<D>& cell) {
-    return {state.density[cell], euler::internalEnergyIn<D, const double>(state, cell),
-            euler::mixedAt(gases, held, cell)};
+    const double energy = euler::internalEnergyIn<D, const double>(state, cell);
+    return {state.density[cell], energy, euler::lawAt(gases, held, energy, cell)};
   }
   double pressure() const { return law.pressure(density, energy); }
   double soundSpeed() const { return std::sqrt(law.soundSpeedSquared(density, pressure())); }
@@ -109,6 +109,7 @@ template <int D>
 double temperatureAt(const Gases& gases, const euler::OldState<D>& state, const std::vector<euler::OldGas>& held,
                      const Index<D>& cell) {
   double heat = euler::internalEnergyIn<D, const double>(state, cell), capacity = 0;
+  if (gases.front().blend) return gases.front().blend->at(euler::massesIn(held, cell).data(), heat).temperature;
   for (std::size_t k = 0; k < gases.size(); ++k) {
     heat -= held[k].share[cell] * gases[k].gas.pInfinity;
     capacity += held[k].mass[cell] * gases[k].gas.specificHeat;

@@ -152,7 +152,7 @@ class BurnModes {
   };
 
   double gasPressure(const Index<D>& cell) const {
-    const euler::Gas law = lawAt<D>(settings_, cells_.held, cell);
+    const euler::Gas law = lawAt<D>(settings_, cells_.held, cells_.free[cell], cell);
     const euler::State<D> w = cells_.primitive(law, cell);
     return law.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]);
   }

@@ -119,7 +119,7 @@ class BurningSurface {
     const double share = reactant_.shareIn(below, above), step = share > 0 ? surface_.step(above, axis) : 0;
     if (step == 0) return;
     const Index<D>&gas = step > 0 ? below : above, &body = step > 0 ? above : below;
-    const euler::Gas law = lawAt<D>(settings_, cells_.held, gas);
+    const euler::Gas law = lawAt<D>(settings_, cells_.held, cells_.free[gas], gas);
     const euler::State<D> w = cells_.primitive(law, gas);
     const double density = w[euler::kDensity], pressure = law.pressureOf(density, w[euler::kPressure<D>]);
     const ice::BurnModel& model = settings_.burning->model;
@@ -143,7 +143,7 @@ class BurningSurface {
   void burnWithin(const Index<D>& cell, const NewBurning<D>& fresh) const {
     if (!(reactant_.mass[cell] > 0) || cells_.isEmpty(cell) || isBesideWall(cell)) return;
     if (!modes_.allowSurface(cell)) return;
-    const euler::Gas law = lawAt<D>(settings_, cells_.held, cell);
+    const euler::Gas law = lawAt<D>(settings_, cells_.held, cells_.free[cell], cell);
     const euler::State<D> w = cells_.primitive(law, cell);
     const double pressure = law.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]);
     const ice::BurnModel& model = settings_.burning->model;

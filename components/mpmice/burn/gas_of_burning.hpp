@@ -84,12 +84,13 @@ struct Burnt {
 template <int D>
 void makeRoomFor(const Level& level, const Settings& settings, const BurntGas<D>& gas, const Index<D>& cell,
                  double internal) {
+  if (areBlended(settings)) return;  // their volumes follow from masses and energy
   const std::size_t product = settings.burning->gas;
   double sum = 0;
   int count = 0;
   const auto addPressure = [&](const Index<D>& at) {
     if (gas.before.isEmpty(at)) return;
-    const euler::State<D> w = gas.before.primitive(lawAt<D>(settings, gas.before.held, at), at);
+    const euler::State<D> w = gas.before.primitive(lawAt<D>(settings, gas.before.held, gas.before.free[at], at), at);
     sum += w[euler::kPressure<D>];
     ++count;
   };

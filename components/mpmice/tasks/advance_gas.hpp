@@ -128,13 +128,14 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
                   const euler::MixtureViews<D, double>& fresh) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (near(cell)) return;
-    const euler::Gas gas = lawAt<D>(settings, fresh, cell);
+    const euler::Gas gas = lawAt<D>(settings, fresh, 1, cell);
     if (!euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1))
       euler::refuseState<D, double>(patch.level(), gas, cell, fresh, settings.gases.empty() ? &cells.held : nullptr);
   });
 }
 
-/// Whether the gas of a cell has a possible state. For several gases, refuseFarGas checks it.
+/// Whether the gas of a cell has a possible state. For several gases, refuseFarGas checks it or, if they have laws of
+/// their own, closeGases at the end of the step.
 template <int D, class G>
 bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, double>& fresh) {
   if constexpr (euler::kGases < G >> 1)
@@ -231,7 +232,7 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
     fine = advance(gas);
   else
     fine = advance(euler::lawOf<euler::StiffenedGas>(gas));
-  if (!fine) refuseFarGas<D>(patch, settings, near, cells, fresh.held);
+  if (!fine && !areBlended(settings)) refuseFarGas<D>(patch, settings, near, cells, fresh.held);
 }
 
 template <int D>

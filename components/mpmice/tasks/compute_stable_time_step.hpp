@@ -38,7 +38,7 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
   double most = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (cells.isEmpty(cell)) return;
-    const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
+    const euler::Gas gas = lawAt<D>(settings, cells.held, cells.free[cell], cell);
     const euler::State<D> w = cells.primitive(gas, cell);
     const double rho = w[euler::kDensity], p = w[euler::kPressure<D>];
     if (!(gas.heat(rho, p) > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, p);

@@ -15,7 +15,7 @@ template <int D>
 void computePressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                      CellView<double> pressure) {
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
-    const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
+    const euler::Gas gas = lawAt<D>(settings, cells.held, cells.free[cell], cell);
     const euler::State<D> w = hasGas ? cells.primitive(gas, cell) : euler::State<D>{};
     pressure[cell] = hasGas ? gas.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]) : 0;
   });
@@ -33,7 +33,7 @@ void computeMach(const Patch& patch, const Settings& settings, const GasInCells<
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
     mach[cell] = Vec<D>::Zero();
     if (!hasGas) return;
-    const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
+    const euler::Gas gas = lawAt<D>(settings, cells.held, cells.free[cell], cell);
     const euler::State<D> w = cells.primitive(gas, cell);
     const double c2 = gas.soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]);
     for (int d = 0; d < D; ++d) mach[cell][d] = w[euler::kVelocity(d)] / std::sqrt(c2);
@@ -62,7 +62,7 @@ void computeSoundSpeed(const Patch& patch, const Settings& settings, const GasIn
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
     speed[cell] = 0;
     if (!hasGas) return;
-    const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
+    const euler::Gas gas = lawAt<D>(settings, cells.held, cells.free[cell], cell);
     const euler::State<D> w = cells.primitive(gas, cell);
     speed[cell] = std::sqrt(gas.soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]));
   });
@@ -140,7 +140,7 @@ void findLeastContent(const Patch& patch, const Settings& settings, const GasInC
     for (const auto& ofGas : cells.held.masses) mass.add(ofGas[cell]);
     if (cells.held.density[cell] == 0) return;
     const double energy = euler::internalEnergyIn<D, const double>(cells.held, cell);
-    heat.add(energy - cells.free[cell] * lawAt<D>(settings, cells.held, cell).pInfinity);
+    heat.add(energy - cells.free[cell] * lawAt<D>(settings, cells.held, cells.free[cell], cell).pInfinity);
   });
 }
 

@@ -74,7 +74,7 @@ class HeatExchange {
       for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
     }
     gas_.totalEnergy[cell] -= given;
-    if (present > solid && !settings_.gases.empty())
+    if (present > solid && !settings_.gases.empty() && !areBlended(settings_))
       ice::changeShares(changes, first, gas_.free[cell],
                         [&](Eigen::Index k) -> double& { return gas_.shares[k][cell]; });
     return given;
@@ -98,6 +98,7 @@ class HeatExchange {
     const auto first = static_cast<Eigen::Index>(bodies_.size());
     const double free = gas_.free[cell], mass = gas_.density[cell];
     const double internal = gas_.totalEnergy[cell] - 0.5 * gas_.momentum[cell].squaredNorm() / mass;
+    if (areBlended(settings_)) return addBlend(cell, internal, things);
     if (!settings_.gases.empty()) {
       euler::MixedGas mixed;
       for (std::size_t k = 0; k < settings_.gases.size(); ++k)
@@ -117,6 +118,23 @@ class HeatExchange {
     things.volume[first] = free;
   }
 
+  /// Adds gases with laws of their own, which have one temperature; their volumes do not change here.
+  void addBlend(const Index<D>& cell, double internal, ice::WarmThings<Most>& things) const {
+    const auto first = static_cast<Eigen::Index>(bodies_.size());
+    const double free = gas_.free[cell];
+    std::array<double, euler::kMostGases> masses{};
+    for (std::size_t k = 0; k < gas_.masses.size(); ++k) masses[k] = gas_.masses[k][cell] / free;
+    const euler::Blend blend = settings_.gases.front().blend->at(masses.data(), internal / free);
+    for (std::size_t k = 0; k < gas_.masses.size(); ++k) {
+      if (!blend.isPossible || !(gas_.masses[k][cell] > ice::leastPartOfMass * gas_.density[cell])) continue;
+      const auto at = first + static_cast<Eigen::Index>(k);
+      things.mass[at] = gas_.masses[k][cell];
+      things.capacity[at] = things.mass[at] * settings_.gases[k].gas.specificHeat;
+      things.temperature[at] = blend.temperature;
+      things.volume[at] = free * blend.shares[k];
+    }
+  }
+
   const Patch& patch_;
   const std::vector<mpm::solid::Material>& materials_;
   const Settings& settings_;
@@ -131,7 +149,7 @@ void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& m
                   const std::optional<CellView<double>>& heat) {
   if (heat) heat->fill(0);
   const HeatExchange<D, Most> exchange(patch, materials, settings, gas, bodies);
-  const bool hasGasAlone = !settings.gases.empty() || settings.heating.acts();
+  const bool hasGasAlone = (!settings.gases.empty() && !areBlended(settings)) || settings.heating.acts();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const bool hasBody = std::any_of(bodies.begin(), bodies.end(),
                                      [&](const WarmBodies& body) { return body.mass.template in<D>(cell).size() > 0; });

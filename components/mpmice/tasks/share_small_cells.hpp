@@ -229,7 +229,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
                 euler::rowOf(fresh.held.totalEnergy, first, count));
   });
   // At the rim of a level, the flux of volume has been corrected.
-  if (level.domain().refinement.levels > 1 && !fresh.held.shares.empty())
+  if (level.domain().refinement.levels > 1 && !fresh.held.shares.empty() && !areBlended(settings))
     euler::closeShares<D>(patch, settings.gases, fresh.held.shares);
   const NearBodies<D> near(patch.cells(), shareReach, state.free, state.held.density);
   const SmallCells<D> small(level, settings.thinWalls, state);
@@ -240,8 +240,9 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     emptyIfNothingLeft<D>(cell, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
-  near.forEachIn(patch.cells(),
-                 [&](const Index<D>& cell) { checkGas<D>(level, lawAt<D>(settings, fresh.held, cell), cell, fresh); });
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
+    checkGas<D>(level, lawAt<D>(settings, fresh.held, fresh.free[cell], cell), cell, fresh);
+  });
 }
 
 }  // namespace tushar::mpmice

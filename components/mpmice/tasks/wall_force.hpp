@@ -83,7 +83,8 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   const BodiesAtNodes<D> bodies(level, records);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     if (space.isEmpty(cell)) return;
-    const CellWalls<D> ofCell(level, space, cell, cells.primitive(lawAt<D>(settings, cells.held, cell), cell));
+    const euler::Gas law = lawAt<D>(settings, cells.held, cells.free[cell], cell);
+    const CellWalls<D> ofCell(level, space, cell, cells.primitive(law, cell));
     for (int d = 0; d < D; ++d) {
       const auto on = [&](const Index<D>& face, int side) {
         if (!ofCell.hasWall(d, side)) return 0.0;
@@ -102,8 +103,8 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
                          const Blowing<D>& blowing, const WallPressures<D>& walls) {
   fillWallPressure<D>(patch, settings, cells, records, walls,
                       [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
-                        return ofCell.pressure(lawAt<D>(settings, cells.held, cell), velocity, d, side,
-                                               blowing.speed(cell, d, side)) +
+                        const euler::Gas law = lawAt<D>(settings, cells.held, cells.free[cell], cell);
+                        return ofCell.pressure(law, velocity, d, side, blowing.speed(cell, d, side)) +
                                blowing.recoil(cell, d, side);
                       });
 }

@@ -1,0 +1,194 @@
+#include "components/euler/blend.hpp"
+
+#include <algorithm>
+
+namespace tushar::euler {
+
+namespace {
+
+/// The limits of the pressure [Pa]. A liquid that does not fill its cell has the least one.
+constexpr double leastPressure = 1e-100, greatestPressure = 1e16;
+/// The relative change of volume that counts as round-off.
+constexpr double roundOff = 4e-15;
+/// The relative change from which on the next step of Newton's method would change less than round-off.
+constexpr double nearlyDone = 1e-8;
+
+/// The density at which p = P0 + ((rho / rho_0)^n - 1) / (n K), or p = P0 (rho / rho_0)^(1 / (K P0)) below P0.
+double densityOfMurnaghan(const ColdCurve& cold, double pressure) {
+  const double k = cold.compressibility, least = cold.pressureThere;
+  if (pressure < least) return cold.density * std::pow(pressure / least, k * least);
+  return cold.density * std::pow(1 + cold.exponent * k * (pressure - least), 1 / cold.exponent);
+}
+
+/// The slope dp/drho of a cold curve, given its pressure there; with Murnaghan's law, it vanishes far below rho_0.
+double slopeOf(const ColdCurve& cold, double rho, double pressure) {
+  if (cold.kind == ColdCurve::Kind::murnaghan && pressure < cold.pressureThere)
+    return pressure / (cold.compressibility * cold.pressureThere * rho);
+  return cold.slope(rho);
+}
+
+}  // namespace
+
+MixedGas Blend::law(double energy) const {
+  if (!isPossible) return {std::nan(""), std::nan("")};
+  const double softness = (pressure + energy) / modulus;
+  return {softness, energy - pressure * softness};
+}
+
+BlendLaws::BlendLaws(const std::vector<Gas>& gases) : gases_(gases) {
+  for (const Gas& gas : gases_) {
+    const CurvedGas* law = gas.law ? std::get_if<CurvedGas>(gas.law.get()) : nullptr;
+    substances_.push_back({gas.specificHeat, law ? law->gruneisen() : gas.gamma - 1, gas.pInfinity, law});
+  }
+}
+
+double BlendLaws::Substance::densityAt(double pressure, double temperature, double guess) const {
+  const double heat = gruneisen * specificHeat * temperature;
+  if (!law) return (pressure + pInfinity) / heat;
+  const ColdCurve& cold = law->cold();
+  if (isLinear())
+    return cold.density * (1 + (pressure - cold.pressureThere - heat * cold.density) / cold.a);
+  if (cold.kind == ColdCurve::Kind::murnaghan && gruneisen == 0) return densityOfMurnaghan(cold, pressure);
+  // In logarithms, pressure and density are nearly proportional to each other.
+  double rho = guess, low = 0, high = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 200; ++k) {
+    const double there = cold.pressure(rho) + heat * rho, slope = cold.slope(rho) + heat;
+    (there < pressure ? low : high) = rho;
+    const double step = std::log(pressure / there) * there / (slope * rho);
+    double next = rho * std::exp(std::clamp(step, -5.0, 5.0));
+    const bool isDone = std::abs(step) <= nearlyDone;
+    if (!isDone && !(next > low && next < high)) next = std::isinf(high) ? 2 * rho : 0.5 * (low + high);
+    rho = next;
+    if (isDone) break;
+  }
+  return rho;
+}
+
+/// Sums over the gases at a pressure and a temperature, and their derivatives.
+struct BlendLaws::Sums {
+  double volume = 0, energy = 0;                    ///< sum of m / rho, sum of m e
+  double volumeOfPressure = 0, volumeOfHeat = 0;    ///< derivatives with respect to p and T
+  double energyOfPressure = 0, energyOfHeat = 0;    ///< the same for the energy
+  double capacity = 0;                              ///< sum of m c_p [J/(m³ K)]
+
+  void add(double mass, double rho, const Substance& of, double temperature) {
+    const double linear = of.isLinear() ? of.law->cold().density : rho, heat = of.gruneisen * of.specificHeat;
+    const double cold = of.coldPressure(rho), slope = of.law ? slopeOf(of.law->cold(), rho, cold) : 0;
+    const double stiffness = slope + (of.isLinear() ? 0 : heat * temperature);  // dp/drho at constant T
+    const double perKelvin = heat * linear;                                     // dp/dT at constant rho
+    const double square = rho * rho, yield = mass / (square * stiffness);
+    volume += mass / rho;
+    energy += mass * (of.coldEnergy(rho) + of.specificHeat * temperature);
+    volumeOfPressure -= yield;
+    volumeOfHeat += yield * perKelvin;
+    energyOfPressure += yield * cold;
+    energyOfHeat += mass * of.specificHeat - yield * perKelvin * cold;
+    capacity += mass * of.specificHeat + yield * perKelvin * perKelvin * temperature;
+  }
+  /// rho c² [Pa] of gases that fill the volume 1.
+  double modulus(double temperature) const {
+    return 1 / (-volumeOfPressure - temperature * volumeOfHeat * volumeOfHeat / capacity);
+  }
+};
+
+BlendLaws::Sums BlendLaws::sumsAt(const double* masses, double pressure, double temperature,
+                                  std::array<double, kMostGases>& rho) const {
+  Sums sums;
+  for (std::size_t k = 0; k < substances_.size(); ++k) {
+    if (!(masses[k] > 0)) continue;
+    rho[k] = substances_[k].densityAt(pressure, temperature, rho[k]);
+    sums.add(masses[k], rho[k], substances_[k], temperature);
+  }
+  return sums;
+}
+
+double BlendLaws::temperatureAt(const double* masses, double energy, double pressure,
+                                std::array<double, kMostGases>& rho) const {
+  double least = 0, most = std::numeric_limits<double>::infinity(), at = 300;
+  for (int k = 0; k < 200; ++k) {
+    const Sums sums = sumsAt(masses, pressure, at, rho);
+    (sums.energy < energy ? least : most) = at;
+    const double step = (energy - sums.energy) / sums.energyOfHeat;
+    const bool isDone = std::abs(step) <= nearlyDone * at;
+    double next = at + step;
+    if (!isDone && !(next > least && next < most)) next = std::isinf(most) ? 2 * at : 0.5 * (least + most);
+    at = next;
+    if (isDone) break;
+  }
+  return at;
+}
+
+void BlendLaws::bisect(const double* masses, double energy, double& pressure, double& temperature,
+                       std::array<double, kMostGases>& rho) const {
+  double least = std::log(leastPressure), most = std::log(greatestPressure);
+  for (int k = 0; k < 200; ++k) {
+    const double middle = 0.5 * (least + most);
+    if (middle <= least || middle >= most) break;
+    pressure = std::exp(middle);
+    temperature = temperatureAt(masses, energy, pressure, rho);
+    (sumsAt(masses, pressure, temperature, rho).volume > 1 ? least : most) = middle;
+  }
+}
+
+namespace {
+
+/// The pressure after a step of Newton's method that changes ln p by `change`, where `softness` is -d ln V / d ln p.
+/// The volume of stiff gases is nearly linear in p, that of others in ln p.
+double steppedPressure(double pressure, double change, double softness) {
+  double next = pressure;
+  if (change < -0.9)
+    next *= std::exp(std::max(change, -50.0));
+  else if (change > 1)
+    next = std::min(pressure * std::exp(std::min(change, 50.0)), std::max(10 * pressure, 1e9));
+  else
+    next *= softness < 0.2 ? 1 + change : std::exp(change);
+  return std::clamp(next, leastPressure, greatestPressure);
+}
+
+}  // namespace
+
+Blend BlendLaws::at(const double* masses, double energy) const {
+  Blend blend;
+  double capacity = 0;
+  for (std::size_t k = 0; k < substances_.size(); ++k) {
+    if (std::isnan(masses[k])) return blend;
+    capacity += std::max(masses[k], 0.0) * substances_[k].specificHeat;
+  }
+  if (!(energy > 0 && energy <= std::numeric_limits<double>::max()) || !(capacity > 0)) return blend;
+  std::array<double, kMostGases> rho{};
+  for (std::size_t k = 0; k < substances_.size(); ++k)
+    rho[k] = substances_[k].law ? substances_[k].law->cold().density : 1;
+  double pressure = 0.1 * energy, temperature = energy / capacity;
+  bool isDone = false;
+  for (int k = 0; k < 100 && !isDone; ++k) {
+    const Sums s = sumsAt(masses, pressure, temperature, rho);
+    const double excess = s.volume - 1, missing = energy - s.energy;
+    const double byPressure = s.volumeOfPressure - s.volumeOfHeat * s.energyOfPressure / s.energyOfHeat;
+    const double change = -(std::log1p(excess) * s.volume + s.volumeOfHeat * missing / s.energyOfHeat) / byPressure;
+    const double softness = -byPressure * pressure / s.volume;
+    const double next = steppedPressure(pressure, change / pressure, softness);
+    const double warms = (missing - s.energyOfPressure * (next - pressure)) / s.energyOfHeat;
+    const double after = temperature + std::clamp(warms, -0.7 * temperature, 2 * temperature);
+    const double risen = std::abs(std::log(next / pressure));
+    isDone = std::abs(after - temperature) <= nearlyDone * temperature &&
+             (risen <= nearlyDone || softness * risen <= roundOff);  // also at the limits of the pressure
+    pressure = next;
+    temperature = after;
+    if (!(pressure > 0) || !(temperature > 0)) break;
+  }
+  if (!isDone) bisect(masses, energy, pressure, temperature, rho);
+  const Sums sums = sumsAt(masses, pressure, temperature, rho);
+  for (std::size_t k = 0; k < substances_.size(); ++k)
+    blend.shares[k] = masses[k] > 0 ? masses[k] / (rho[k] * sums.volume) : 0;
+  blend.pressure = pressure;
+  blend.temperature = temperature;
+  // A small stiffness remains in a liquid that does not fill its cell, so that the speeds of waves stay distinct.
+  blend.modulus = std::max(sums.modulus(temperature), 1e-12 * energy);
+  constexpr double tolerance = 1e-8;
+  blend.isPossible = temperature > 0 && blend.modulus > 0 && std::isfinite(blend.modulus) &&
+                     std::abs(sums.energy - energy) <= tolerance * energy &&
+                     (sums.volume < 1 + tolerance) && (pressure <= 2 * leastPressure || sums.volume > 1 - tolerance);
+  return blend;
+}
+
+}  // namespace tushar::euler

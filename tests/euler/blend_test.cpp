@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include "components/euler/blend.hpp"
+
+// Gases with laws of their own that share cells.
+
+namespace tushar::euler {
+
+namespace {
+
+Gas gasOf(const ColdCurve& cold, double gamma, double specificHeat) {
+  return {.specificHeat = specificHeat,
+          .law = std::make_shared<const Gas::Law>(CurvedGas(cold, gamma, specificHeat))};
+}
+/// An explosive, its products by JWLC and by JWL, and air.
+Gas explosive() {
+  return gasOf({.kind = ColdCurve::Kind::murnaghan,
+                .density = 1160,
+                .exponent = 7.4,
+                .compressibility = 3.9e-10,
+                .pressureThere = 101325},
+               0, 1500);
+}
+const ColdCurve products{
+    .density = 1160, .a = 2.9867e11, .b = 4.11706e9, .c = 7.206147e8, .r1 = 4.95, .r2 = 1.15, .omega = 0.35};
+Gas jwlc() { return gasOf(products, 0, 545); }
+Gas jwl() {
+  ColdCurve cold = products;
+  cold.c = 0;
+  return gasOf(cold, 0.35, 1000);
+}
+Gas air() { return {.gamma = 1.4, .specificHeat = 716}; }
+
+using Masses = std::array<double, kMostGases>;
+
+/// The internal energy per volume of gases with volume fractions at a pressure and a temperature, and their masses.
+double energyOf(const std::vector<Gas>& gases, const std::vector<double>& shares, double pressure, double temperature,
+                Masses& masses) {
+  double energy = 0;
+  for (std::size_t k = 0; k < gases.size(); ++k) {
+    const double rho = gases[k].densityAt(pressure, temperature);
+    masses[k] = shares[k] * rho;
+    energy += shares[k] * gases[k].energyOf(rho, gases[k].lastAt(rho, temperature));
+  }
+  return energy;
+}
+
+}  // namespace
+
+TEST(Blend, FindsPressureAndTemperature) {
+  const std::vector<std::vector<Gas>> groups{{explosive(), jwlc(), air()}, {jwl(), air(), explosive()}};
+  for (const std::vector<Gas>& gases : groups)
+    for (const double pressure : {2e4, 101325.0, 1e7, 5e9, 3e10})
+      for (const double temperature : {200.0, 300.0, 4000.0})
+        for (const std::vector<double>& shares : std::vector<std::vector<double>>{
+                 {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.3, 0.2}, {1 - 1e-6, 0, 1e-6}, {1e-9, 1 - 1e-9, 0}}) {
+          Masses masses{};
+          const double energy = energyOf(gases, shares, pressure, temperature, masses);
+          const Blend blend = BlendLaws(gases).at(masses.data(), energy);
+          ASSERT_TRUE(blend.isPossible) << pressure << ' ' << temperature;
+          EXPECT_NEAR(blend.temperature / temperature, 1, 1e-9) << pressure;
+          // The pressure of the explosive has the round-off error of 1e-16 of its stiffness.
+          EXPECT_NEAR(blend.pressure, pressure, 1e-9 * pressure + 1e-4) << temperature;
+          for (std::size_t k = 0; k < gases.size(); ++k) EXPECT_NEAR(blend.shares[k], shares[k], 1e-9);
+        }
+}
+
+TEST(Blend, HasTheSoundSpeedOfItsIsentrope) {
+  const std::vector<Gas> gases{explosive(), jwl(), air()};
+  const BlendLaws laws(gases);
+  Masses masses{};
+  const double energy = energyOf(gases, {0.4, 0.4, 0.2}, 3e8, 900, masses), step = 1e-5;
+  const Blend blend = laws.at(masses.data(), energy);
+  // Compression by a factor 1 + s changes e per volume by (e + p) s.
+  const auto after = [&](double s) {
+    Masses more = masses;
+    for (double& mass : more) mass *= 1 + s;
+    const double middle = energy + 0.5 * s * (energy + blend.pressure);
+    const double there = laws.at(more.data(), middle).pressure;  // close to the mean of both ends
+    return laws.at(more.data(), energy + s * (0.5 * (energy + middle) + 0.5 * (blend.pressure + there))).pressure;
+  };
+  EXPECT_NEAR((after(step) - after(-step)) / (2 * step) / blend.modulus, 1, 1e-4);
+}
+
+TEST(Blend, OfAirAloneIsAnIdealGas) {
+  const BlendLaws laws({explosive(), air()});
+  const Masses masses{0, 1.2, 0};
+  const double energy = 1.2 * 716 * 300;
+  const MixedGas law = laws.at(masses.data(), energy).law(energy);
+  EXPECT_NEAR(law.softness, 2.5, 1e-13);
+  EXPECT_NEAR(law.stiffness / energy, 0, 1e-14);
+  EXPECT_NEAR(law.soundSpeedSquared(1.2, 0.4 * energy) / (1.4 * 0.4 * 716 * 300), 1, 1e-13);
+}
+
+TEST(Blend, OfALiquidInTensionHasAlmostNoPressure) {
+  const BlendLaws laws({explosive(), air()});
+  const Masses masses{1000, 0, 0};
+  const Blend blend = laws.at(masses.data(), 1000 * 1500 * 300.0);
+  EXPECT_TRUE(blend.isPossible);
+  EXPECT_LT(blend.pressure, 1e-50);
+  EXPECT_DOUBLE_EQ(blend.shares[0], 1);
+  EXPECT_GT(blend.modulus, 0);
+}
+
+TEST(Blend, IsImpossibleWithoutHeat) {
+  const BlendLaws laws({explosive(), jwlc()});
+  const Masses masses{0, 1500, 0};
+  const double cold = products.energy(1500);
+  EXPECT_FALSE(laws.at(masses.data(), 0.99 * cold).isPossible);
+  EXPECT_TRUE(laws.at(masses.data(), 1.01 * cold).isPossible);
+  EXPECT_FALSE(laws.at(masses.data(), std::nan("")).isPossible);
+}
+
+}  // namespace tushar::euler
