@@ -117,6 +117,17 @@ const Schema<TstTags>& tstSchema() {
   return schema;
 }
 
+struct SphereTags {
+  double b = 0;
+};
+const Schema<SphereTags>& sphereSchema() {
+  static const Schema<SphereTags> schema =
+      Schema<SphereTags>("EOS", "p = (gamma - 1) c_v T / (1 / rho - b): molecules are hard spheres.")
+          .foreignAttribute("type", "hard_sphere_gas")
+          .required("b", &SphereTags::b, "m^3/kg", "volume of the molecules", input::nonNegative());
+  return schema;
+}
+
 const std::vector<std::pair<std::string, Kind>>& kinds() {
   static const std::vector<std::pair<std::string, Kind>> list{{"ideal_gas", Kind::ideal},
                                                               {"stiffened_gas", Kind::stiffened},
@@ -125,23 +136,24 @@ const std::vector<std::pair<std::string, Kind>>& kinds() {
                                                               {"Murnaghan", Kind::murnaghan},
                                                               {"Gruneisen", Kind::gruneisen},
                                                               {"Thomsen_Hartka_water", Kind::water},
-                                                              {"TST", Kind::tst}};
+                                                              {"TST", Kind::tst},
+                                                              {"hard_sphere_gas", Kind::hardSpheres}};
   return list;
 }
 
 }  // namespace
 
-std::shared_ptr<const euler::Gas::Law> EquationOfState::law(double specificHeat) const {
-  const auto curved = [&](double gamma) {
-    return std::make_shared<const euler::Gas::Law>(euler::CurvedGas(cold, gamma, specificHeat));
+std::shared_ptr<const euler::Gas::Law> EquationOfState::law(double specificHeat, double gamma) const {
+  const auto curved = [&](double gruneisen) {
+    return std::make_shared<const euler::Gas::Law>(euler::CurvedGas(cold, gruneisen, specificHeat));
   };
   if (kind == Kind::jwl) return curved(cold.omega);
   if (kind == Kind::gruneisen) return curved(perKelvin / (cold.density * specificHeat));
   if (kind == Kind::jwlc || kind == Kind::murnaghan) return curved(0);
-  if (kind == Kind::tst) {
+  if (kind == Kind::tst || kind == Kind::hardSpheres) {
     euler::RealGas::Numbers numbers = real;
     numbers.specificHeat = specificHeat;
-    numbers.gasConstant = (gammaOfThinGas - 1) * specificHeat;
+    numbers.gasConstant = ((kind == Kind::tst ? gammaOfThinGas : gamma) - 1) * specificHeat;
     return std::make_shared<const euler::Gas::Law>(euler::RealGas(numbers));
   }
   if (kind == Kind::water) return std::make_shared<const euler::Gas::Law>(euler::Water(water));
@@ -193,6 +205,7 @@ EquationOfState readEquationOfState(const Element& material, Diagnostics& diagno
     read.real = {.attraction = tags.a, .covolume = tags.b, .u = tags.u, .w = tags.w};
     read.gammaOfThinGas = tags.gamma;
   }
+  if (kind == Kind::hardSpheres) read.real.covolume = sphereSchema().read(*given, diagnostics).b;
   if (kind == Kind::water) read.water = waterSchema().read(*given, diagnostics);
   read.kind = kind;
   return read;

@@ -215,7 +215,7 @@ std::vector<const Location*> conversions(const GasScene& scene) {
 }  // namespace
 
 std::shared_ptr<const euler::Gas::Law> GasMaterial::law() const {
-  if (!air) return state.law(specificHeat);
+  if (!air) return state.law(specificHeat, gamma);
   return std::make_shared<const euler::Gas::Law>(
       euler::RealGas({.gasConstant = air->gasConstant.value_or((gamma - 1) * specificHeat),
                       .specificHeat = specificHeat,

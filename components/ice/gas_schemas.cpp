@@ -207,10 +207,9 @@ const Schema<GasMaterial>& materialSchema() {
     tags.attributeValue("name", &GasMaterial::name, "", "1", "its name")
         .ignoredAttribute("index", "gases are numbered in the order of the scene")
         .custom("EOS", readState, {"EOS"},
-                "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; for "
-                "explosives, liquids and dense gases JWL, JWLC, Murnaghan, Gruneisen, Thomsen_Hartka_water and TST, "
-                "for which "
-                "<gamma> has no effect")
+                "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; "
+                "hard_sphere_gas; for explosives, liquids and dense gases JWL, JWLC, Murnaghan, Gruneisen, "
+                "Thomsen_Hartka_water and TST, for which <gamma> has no effect")
         .forms({{.tags = {"EOS"}, .demands = {{"type", equationsOfState()}}, .atLeast = 1, .repeats = false}})
         .required("gamma", &GasMaterial::gamma, "1", "ratio of specific heats, more than 1", input::atLeast(1))
         .required("specific_heat", &GasMaterial::specificHeat, "J/(kg K)", "c_v", input::positive())

@@ -53,6 +53,10 @@ Gas attracted() {
   return gasOf(RealGas(
       {.gasConstant = 300, .specificHeat = 750, .attraction = 100, .covolume = 1e-3, .u = 2.414214, .w = -0.414214}));
 }
+/// The products of Uintah's IS/hollow_AMR.ups, whose molecules are hard spheres.
+Gas spheres() {
+  return gasOf(RealGas({.gasConstant = 0.4 * 716, .specificHeat = 716, .covolume = 1.4e-3}));
+}
 /// The JWL law without its exponentials, which is an ideal gas.
 Gas idealByLaw() { return gasOf(CurvedGas({.density = 1}, 0.4, 716)); }
 
@@ -69,6 +73,7 @@ std::vector<Case> allLaws() {
           {"water", water(), {990, 1000, 1010}},
           {"air", air(), {1e-3, 1, 40}},
           {"TST", tst(), {1e-3, 1, 300, 900}},
+          {"hard spheres", spheres(), {1e-3, 1, 300}},
           {"attracted", attracted(), {1e-3, 1, 100, 200}},
           {"ideal", idealByLaw(), {1e-3, 1, 10}}};
 }
@@ -222,6 +227,10 @@ TEST(GasLaws, OfRealGasesHaveThePressuresOfUintahsScenes) {
   EXPECT_NEAR(air().lastAt(0.11719839492715756, 300) / 10132.5, 1, 1e-5);
   EXPECT_NEAR(tst().lastAt(1.037341706242494, 300) / 101325, 1, 1e-5);
   EXPECT_FALSE(std::get<RealGas>(*tst().law).canBe(1300, 1e12)) << "there is no room for so many molecules";
+}
+
+TEST(GasLaws, OfHardSpheresHaveTheirPressure) {
+  EXPECT_NEAR(spheres().lastAt(300, 400) / (0.4 * 300 * 716 * 400 / (1 - 1.4e-3 * 300)), 1, 1e-14);
 }
 
 TEST(GasLaws, ConserveAndStayPositive) {

@@ -23,7 +23,8 @@ constexpr std::string_view fractionLabel = "scalar-f";
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
   const auto kind = material.state.kind;
-  if (kind == EquationOfState::Kind::water || kind == EquationOfState::Kind::tst)
+  if (kind == EquationOfState::Kind::water || kind == EquationOfState::Kind::tst ||
+      kind == EquationOfState::Kind::hardSpheres)
     diagnostics.error(*element.child("EOS"),
                       "is not available with a second gas: several gases must be of type ideal_gas, stiffened_gas, "
                       "JWL, JWLC, Murnaghan or Gruneisen");

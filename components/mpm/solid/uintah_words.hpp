@@ -30,6 +30,7 @@ inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"DeleteGeometryObjects", "shapes are not stored"},
     {"computeNodalHeatFlux", "it has no effect"},
     {"testForNegTemps_mpm", "it has no effect"},
+    {"DoThermalExpansion", "only models that Uintah does not build read it"},
     {"water_damping_coef", "belongs to coupled_flow_analysis"},
     {"solid_damping_coef", "belongs to coupled_flow_analysis"},
     {"PorePressureFilter", "belongs to coupled_flow_analysis"},
