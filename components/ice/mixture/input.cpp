@@ -60,7 +60,7 @@ void checkExchange(const GasScene& scene, const Element& root, int solids, Diagn
 
 /// Checks what is not available if a gas has its own equation of state. The gases of a cell then have one temperature,
 /// so the exchange of heat between them must be fast.
-void checkBlend(const GasScene& scene, const Element& root, int solids, Diagnostics& diagnostics) {
+void checkBlend(const GasScene& scene, int solids, Diagnostics& diagnostics) {
   if (scene.implicit)
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
                       "is not available if one of several gases is neither ideal nor stiffened: remove it, or run with "
@@ -162,7 +162,7 @@ void checkMixture(const std::vector<GasMaterial>& materials, const Element& root
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available with several gases; remove it, or keep one gas");
   if (!scene.binary) checkExchange(scene, root, solids, diagnostics);
-  if (scene.mixture.front().blend) checkBlend(scene, root, solids, diagnostics);
+  if (scene.mixture.front().blend) checkBlend(scene, solids, diagnostics);
   checkExchangesOfMass(scene, diagnostics);
   checkSides(root, solids, scene.binary.has_value(), diagnostics);
 }
