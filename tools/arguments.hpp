@@ -35,7 +35,7 @@ struct Arguments {
 };
 
 /// Parses the words of the command line into `arguments`. Returns an exit code if the program ends here because the
-/// words request help or are invalid. In that case, the first rank has printed the message.
+/// words request help or are invalid. In that case, rank 0 has printed the message.
 std::optional<ExitCode> parse(const std::vector<std::string>& words, Arguments& arguments);
 
 /// Parses a duration such as `30s`, `10min` or `2h` and returns it in seconds; none for any other text.

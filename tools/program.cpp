@@ -55,7 +55,7 @@ void checkWritable(const std::string& path) {
 
 void warn(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
-/// Finds the checkpoint from which the run continues. The first rank reports the damaged ones that it finds.
+/// Finds the checkpoint from which the run continues. Rank 0 reports the damaged ones that it finds.
 simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
   const simulation::Restart restart = scene::findRestart(arguments.scene, arguments.checkpoint, ranks);
   if (!ranks.isFirst() || restart.notes.empty()) return restart;
@@ -89,7 +89,7 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
   return problem;
 }
 
-/// Writes the spans recorded on all ranks to a file, on the first rank.
+/// Writes the spans recorded on all ranks to a file, on rank 0.
 void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
   std::string all;
   for (const std::string& events : ranks.gather(trace::events(ranks.rank())))

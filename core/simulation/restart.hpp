@@ -36,7 +36,7 @@ void noteDamage(Restart& restart, const std::string& damage);
 /// that it skips. Returns false if none is intact. If a checkpoint was written by a newer version, throws InputError on
 /// rank 0, and FailedElsewhere on the others.
 bool takeNext(Restart& restart, const mpi::Communicator& ranks);
-/// Throws InputError on the first rank, with all notes, and FailedElsewhere on the others.
+/// Throws InputError on rank 0, with all notes, and FailedElsewhere on the others.
 [[noreturn]] void refuseDamaged(const Restart& restart, const mpi::Communicator& ranks);
 /// The steps of checkpoints in words: `available: steps 4, 6`.
 std::string listedSteps(const std::vector<int>& steps);

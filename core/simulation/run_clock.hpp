@@ -26,7 +26,7 @@ class RunClock {
 
   /// Time since the process started, on this rank [s].
   double now() const { return secondsSince(started_at_); }
-  /// From now on, checks for request files in the folder of the archive. Only on the first rank.
+  /// From now on, checks for request files in the folder of the archive. Only on rank 0.
   void watch(const std::filesystem::path& folder) { files_.emplace(folder); }
   /// Reads the clock, and the requests received by any rank. Collective.
   void agree(const mpi::Communicator& ranks);
