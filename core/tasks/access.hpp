@@ -218,18 +218,58 @@ inline constexpr bool isOfLabel = isOfMaterialAndPatch<Argument>;
 template <class R, AccessKind Kind>
 inline constexpr bool isOfLabel<FieldAccess<data::ReductionLabel<R>, Kind>> = true;
 
+/// Whether an argument represents a variable of particles, which belongs to a material.
+template <class Argument>
+inline constexpr bool isOfParticles = false;
+template <class T, AccessKind Kind>
+inline constexpr bool isOfParticles<FieldAccess<data::ParticleLabel<T>, Kind>> = true;
+template <class Access>
+inline constexpr bool isOfParticles<OptionalAccess<Access>> = isOfParticles<Access>;
+template <class Access>
+inline constexpr bool isOfParticles<OfferedAccess<Access>> = isOfParticles<Access>;
+
+/// Whether an argument creates values of new particles.
+template <class Argument>
+inline constexpr bool isCreation = false;
+template <class Label>
+inline constexpr bool isCreation<FieldAccess<Label, AccessKind::creates>> = true;
+
+/// The variables that a task, or a group of accesses, may have.
+struct Allowed {
+  bool creation = false;   ///< creates(...)
+  bool particles = false;  ///< variables of particles
+  bool fields = true;      ///< variables of patches: of cells, nodes and particles
+};
+/// Rejects, at compile time, an access that is not allowed.
+template <Allowed allowed, class Argument>
+constexpr void checkAccess() {
+  static_assert(allowed.fields || !isOfMaterialAndPatch<Argument>,
+                "totals<Group>() accepts only reductions; use all<Group>() for variables of patches");
+  static_assert(allowed.creation || !isCreation<Argument>,
+                "creates(...) is allowed only in newParticles, even in a group");
+  static_assert(allowed.particles || !isOfParticles<Argument>,
+                "a variable of particles belongs to a material: it is allowed only in tasks with materials");
+}
+/// Declares an access, or the accesses of a group.
+template <Allowed allowed, class Argument>
+void declareChecked(Argument& argument, std::vector<Access>& accesses) {
+  if constexpr (requires { argument.template declareFor<allowed>(accesses); }) {
+    argument.template declareFor<allowed>(accesses);
+  } else {
+    checkAccess<allowed, Argument>();
+    argument.declare(accesses);
+  }
+}
+
 /// An access to a variable that does not belong to a material, in a task over materials.
 template <class Argument>
 struct WithoutMaterial {
   Argument argument;
 
-  template <bool makesParticles>
+  template <Allowed>
   void declareFor(std::vector<Access>& accesses) {
     const std::size_t first = accesses.size();
-    if constexpr (requires { argument.template declareFor<makesParticles>(accesses); })
-      argument.template declareFor<makesParticles>(accesses);
-    else
-      argument.declare(accesses);
+    declareChecked<Allowed{}>(argument, accesses);
     for (std::size_t k = first; k < accesses.size(); ++k) accesses[k].ofNone = true;
   }
   decltype(auto) bind(const TaskContext& context) const { return argument.bind(context); }
@@ -246,13 +286,13 @@ inline constexpr bool isWithoutMaterial = false;
 template <class Argument>
 inline constexpr bool isWithoutMaterial<WithoutMaterial<Argument>> = true;
 
-/// Whether an argument is allowed only in tasks that make particles or that run once per rank.
-template <class Argument>
-inline constexpr bool isCreation = false;
-template <class Label>
-inline constexpr bool isCreation<FieldAccess<Label, AccessKind::creates>> = true;
+/// Whether an argument is allowed only in tasks that run once per rank; whether it is that of marks() or newCells().
 template <class Argument>
 inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument>;
+template <class Argument>
+inline constexpr bool isMarks = false;
+template <class Argument>
+inline constexpr bool isNewCells = false;
 
 /// The results of calling `bind` for each element of `contexts`.
 template <class Contexts, class Bind>

@@ -32,8 +32,8 @@ struct Blank<data::GridView<C, T>> {
   static data::GridView<C, T> make() { return {nullptr, grid::Box{}}; }
 };
 
-/// Declares the accesses of a group in order. `makesParticles`: for a task of `newParticles`.
-template <bool makesParticles>
+/// Declares the accesses of a group in order.
+template <Allowed allowed>
 class DeclareEach {
  public:
   explicit DeclareEach(std::vector<Access>& accesses) : accesses_(&accesses) {}
@@ -43,8 +43,7 @@ class DeclareEach {
     static_assert(
         isOfLabel<Argument>,
         "take(...) accepts only accesses to labels; pass other values to a group as settings, all<Group>(value)");
-    static_assert(makesParticles || !isCreation<Argument>,
-                  "creates(...) is allowed only in newParticles, even in a group");
+    checkAccess<allowed, Argument>();
     argument.declare(*accesses_);
     return Blank<decltype(argument.bind(std::declval<const TaskContext&>()))>::make();
   }
@@ -75,10 +74,10 @@ struct GroupArgument {
   From from;
   int first = 0;  ///< index of the group's first access among those of the task
 
-  template <bool makesParticles>
+  template <Allowed allowed>
   void declareFor(std::vector<Access>& accesses) {
     first = static_cast<int>(accesses.size());
-    DeclareEach<makesParticles> take(accesses);
+    DeclareEach<allowed> take(accesses);
     from(take);
   }
   Group bind(const TaskContext& context) const {
@@ -91,7 +90,12 @@ inline constexpr bool isOfMaterialAndPatch<GroupArgument<Group, From>> = true;
 
 /// The argument made by the function `totals`.
 template <class Group, class From>
-struct TotalsArgument : GroupArgument<Group, From> {};
+struct TotalsArgument : GroupArgument<Group, From> {
+  template <Allowed>
+  void declareFor(std::vector<Access>& accesses) {
+    GroupArgument<Group, From>::template declareFor<Allowed{.fields = false}>(accesses);
+  }
+};
 
 /// A function that makes a group with given settings. As a closure it costs the compiler less than a std::tuple of
 /// them.

@@ -43,13 +43,17 @@ struct MarksAccess {
 };
 /// Passes Marks to the body. For perPatch tasks of Component::scheduleErrorEstimate.
 inline MarksAccess marks() { return {}; }
+template <>
+inline constexpr bool isMarks<MarksAccess> = true;
 
 struct NewCellsAccess {
   void declare(std::vector<Access>&) {}
   const std::vector<grid::Box>& bind(const TaskContext& context) const { return context.newCells(); }
 };
-/// Passes the boxes of the newly refined cells to the body: a const std::vector<Box>&. For tasks of
-/// Component::scheduleRefine.
+/// Passes the boxes of the newly refined cells of a patch to the body: a const std::vector<Box>&. For tasks of
+/// Component::scheduleRefine, except those of a rank.
 inline NewCellsAccess newCells() { return {}; }
+template <>
+inline constexpr bool isNewCells<NewCellsAccess> = true;
 
 }  // namespace tushar::tasks

@@ -18,10 +18,10 @@ class TaskList {
   /// Adds a task that runs `body(patch, arguments...)` on each patch.
   template <class Body, class... Arguments>
   void perPatch(std::string_view name, Body body, Arguments... arguments) {
-    check<false, false, Arguments...>();
+    check<On::patch, Arguments...>();
     static_assert(!(isWithoutMaterial<Arguments> || ...),
                   "withoutMaterial(...) is not needed in perPatch, whose tasks have no materials");
-    std::vector<Access> accesses = declare<false>(arguments...);
+    std::vector<Access> accesses = declare<allowedIn(On::patch)>(arguments...);
     add(name, TaskKind::work, {}, std::move(accesses),
         [body, ... bound = std::move(arguments)](const TaskContext& context) {
           body(context.patch(), bound.bind(context)...);
@@ -32,8 +32,8 @@ class TaskList {
   /// outlive the list and have a `name`. The labels are variables of the material.
   template <class Material, class Body, class... Arguments>
   void perMaterial(std::string_view name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
-    check<false, false, Arguments...>();
-    std::vector<Access> accesses = declare<false>(arguments...);
+    check<On::material, Arguments...>();
+    std::vector<Access> accesses = declare<allowedIn(On::material)>(arguments...);
     add(name, TaskKind::work, names(materials), std::move(accesses),
         [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
           body(context.patch(), materials[context.material()], bound.bind(context)...);
@@ -45,8 +45,8 @@ class TaskList {
   template <class Material, class Body, class... Arguments>
   void acrossMaterials(std::string_view name, Body body, const std::vector<Material>& materials,
                        Arguments... arguments) {
-    check<false, false, Arguments...>();
-    std::vector<Access> accesses = declare<false>(arguments...);
+    check<On::materials, Arguments...>();
+    std::vector<Access> accesses = declare<allowedIn(On::materials)>(arguments...);
     add(
         name, TaskKind::work, names(materials), std::move(accesses),
         [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
@@ -59,8 +59,8 @@ class TaskList {
   /// as a linear solve: an access to a label becomes a std::vector of views, one for each patch.
   template <class Body, class... Arguments>
   void perRank(std::string_view name, Body body, Arguments... arguments) {
-    check<false, true, Arguments...>();
-    std::vector<Access> accesses = declare<false>(arguments...);
+    check<On::rank, Arguments...>();
+    std::vector<Access> accesses = declare<allowedIn(On::rank)>(arguments...);
     add(
         name, TaskKind::work, {}, std::move(accesses),
         [body, ... bound = std::move(arguments)](const TaskContext& context) {
@@ -74,8 +74,8 @@ class TaskList {
   template <class Material, class Body, class... Arguments>
   void perRankAcrossMaterials(std::string_view name, Body body, const std::vector<Material>& materials,
                               Arguments... arguments) {
-    check<false, true, Arguments...>();
-    std::vector<Access> accesses = declare<false>(arguments...);
+    check<On::rankAndMaterials, Arguments...>();
+    std::vector<Access> accesses = declare<allowedIn(On::rankAndMaterials)>(arguments...);
     add(
         name, TaskKind::work, names(materials), std::move(accesses),
         [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
@@ -88,8 +88,8 @@ class TaskList {
   /// The task must create all particle variables that are needed afterwards; node and cell variables stay.
   template <class Material, class Body, class... Arguments>
   void newParticles(std::string_view name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
-    check<true, false, Arguments...>();
-    std::vector<Access> accesses = declare<true>(arguments...);
+    check<On::newParticles, Arguments...>();
+    std::vector<Access> accesses = declare<allowedIn(On::newParticles)>(arguments...);
     add(name, TaskKind::newParticles, names(materials), std::move(accesses),
         [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
           body(context.patch(), materials[context.material()], context.maker(), bound.bind(context)...);
@@ -112,26 +112,28 @@ class TaskList {
 
   void add(std::string_view name, TaskKind kind, std::vector<std::string>&& materials, std::vector<Access>&& accesses,
            TaskBody&& body, Sees sees = Sees::patch);
+
+  /// The kinds of tasks, by the function that adds them.
+  enum class On { patch, material, materials, rank, rankAndMaterials, newParticles };
+  static constexpr Allowed allowedIn(On on) {
+    return {.creation = on == On::newParticles, .particles = on != On::patch && on != On::rank};
+  }
   /// Rejects, at compile time, arguments that are meaningless for a kind of task.
-  template <bool makesParticles, bool isOnRank, class... Arguments>
+  template <On on, class... Arguments>
   static constexpr void check() {
-    static_assert(makesParticles || !(isCreation<Arguments> || ...), "creates(...) is allowed only in newParticles");
+    constexpr bool isOnRank = on == On::rank || on == On::rankAndMaterials;
     static_assert(isOnRank || !(isOfRanks<Arguments> || ...),
                   "togetherOnRanks() is allowed only in perRank and perRankAcrossMaterials");
-    static_assert(!isOnRank || !(isWithoutMaterial<Arguments> || ...),
+    static_assert(!(isOnRank || on == On::newParticles) || !(isWithoutMaterial<Arguments> || ...),
                   "withoutMaterial(...) is allowed only in perMaterial and acrossMaterials");
+    static_assert(on == On::patch || !(isMarks<Arguments> || ...), "marks() is allowed only in perPatch");
+    static_assert(!isOnRank || !(isNewCells<Arguments> || ...),
+                  "newCells() is allowed only in tasks of a patch, not in those of a rank");
   }
-  template <bool makesParticles, class Argument>
-  static void declareOne(Argument& argument, std::vector<Access>& accesses) {
-    if constexpr (requires { argument.template declareFor<makesParticles>(accesses); })
-      argument.template declareFor<makesParticles>(accesses);
-    else
-      argument.declare(accesses);
-  }
-  template <bool makesParticles, class... Arguments>
+  template <Allowed allowed, class... Arguments>
   static std::vector<Access> declare(Arguments&... arguments) {
     std::vector<Access> accesses;
-    (declareOne<makesParticles>(arguments, accesses), ...);
+    (declareChecked<allowed>(arguments, accesses), ...);
     return accesses;
   }
   template <class Material>

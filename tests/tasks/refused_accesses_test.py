@@ -8,6 +8,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from compiler import complaints
 
 START = """
+#include "core/tasks/marks.hpp"
 #include "core/tasks/task_list.hpp"
 using namespace tushar;
 using namespace tushar::tasks;
@@ -19,6 +20,21 @@ struct Group {
   data::CellView<const double> density;
   data::CellView<double> other;
   static Group from(auto& take) { return {%s}; }
+};
+struct Totals {
+  data::Sum& total;
+  static Totals from(auto& take) { return {.total = take(computes(::total))}; }
+};
+struct Mixed {
+  data::Sum& total;
+  data::CellView<const double> density;
+  static Mixed from(auto& take) {
+    return {.total = take(computes(::total)), .density = take(requiresNew(::density))};
+  }
+};
+struct Particles {
+  data::ParticleView<const double> mass;
+  static Particles from(auto& take) { return {.mass = take(requiresNew(::mass))}; }
 };
 struct Made {
   std::vector<double>& mass;
@@ -54,6 +70,8 @@ class RefusedAccesses(unittest.TestCase):
         self.assertIn("withoutMaterial(...) is not needed in perPatch, whose tasks have no materials", said)
         said = complaints(piece(task='list.perRank("read", body, withoutMaterial(requiresNew(::density)))'))
         self.assertIn("withoutMaterial(...) is allowed only in perMaterial and acrossMaterials", said)
+        said = complaints(piece(task='list.newParticles("make", body, materials, withoutMaterial(computes(::other)))'))
+        self.assertIn("withoutMaterial(...) is allowed only in perMaterial and acrossMaterials", said)
 
     def test_new_particles_belong_to_the_task_that_makes_them(self):
         said = complaints(piece(task='list.perMaterial("make", body, materials, creates(mass))'))
@@ -68,6 +86,31 @@ class RefusedAccesses(unittest.TestCase):
         for value in ("with(1.0)", "startTime()"):
             members = f".density = take(requiresNew(::density)), .other = (take({value}), take(computes(::other)))"
             self.assertIn("take(...) accepts only accesses to labels", complaints(piece(members=members)))
+
+    def test_totals_are_reductions(self):
+        code = piece(task='list.acrossMaterials("sum", body, materials, totals<Mixed>())')
+        self.assertIn("totals<Group>() accepts only reductions", complaints(code))
+        self.assertEqual(complaints(code.replace("totals<Mixed>", "totals<Totals>")), "")
+
+    def test_particles_belong_to_a_material(self):
+        tasks = [f'perPatch("read", body, {argument})'
+                 for argument in ("computes(mass)", "all<Particles>()", "when(true, requiresOld(mass))")]
+        tasks.append('perRank("read", body, requiresNew(mass))')
+        tasks.append('perMaterial("read", body, materials, withoutMaterial(requiresNew(mass)))')
+        for task in tasks:
+            self.assertIn("a variable of particles belongs to a material", complaints(piece(task="list." + task)), task)
+        said = complaints(piece(task='list.perMaterial("make", body, materials, withoutMaterial(creates(mass)))'))
+        self.assertIn("creates(...) is allowed only in newParticles", said)
+
+    def test_marks_and_new_cells_are_those_of_a_patch(self):
+        for task in ("perMaterial", "acrossMaterials"):
+            self.assertIn("marks() is allowed only in perPatch",
+                          complaints(piece(task=f'list.{task}("mark", body, materials, marks())')))
+        said = complaints(piece(task='list.perRank("mark", body, marks())'))
+        self.assertIn("marks() is allowed only in perPatch", said)
+        self.assertIn("newCells() is allowed only in tasks of a patch",
+                      complaints(piece(task='list.perRank("refine", body, newCells())')))
+        self.assertEqual(complaints(piece(task='list.acrossMaterials("refine", body, materials, newCells())')), "")
 
     def test_ranks_belong_to_tasks_of_a_rank(self):
         said = complaints(piece(task='list.perPatch("solve", body, togetherOnRanks())'))
