@@ -147,6 +147,13 @@ class ParticlesOverTime(InFolder):
         with self.assertRaisesRegex(tushar.ArchiveError, "no output has a particle with id 11, 12"):
             tushar.open(self.path).particles(ids=[10, 11, 12])["p.x"]
 
+    def test_only_whole_numbers_from_0_on_are_ids(self):
+        archive = tushar.open(self.path)
+        for ids in ([-1], [10.5], ["10"], [True]):
+            with self.assertRaisesRegex(tushar.ArchiveError, "expected ids of particles"):
+                archive.particles(ids=ids)
+        self.assertEqual(archive.particles(ids=[])["p.x"].shape, (2, 0, 3))
+
 
 class Memory(unittest.TestCase):
     def test_opening_33_gigabytes_takes_less_than_100_megabytes(self):

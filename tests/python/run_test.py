@@ -37,6 +37,14 @@ class Run(unittest.TestCase):
         self.assertAlmostEqual(run.archive.times[-1], 0.2)
         self.assertIn("steps to t = 0.2 s", repr(run))
 
+    def test_ranks_that_cannot_be_started_are_told(self):
+        for ranks in (0, -1):
+            with self.assertRaisesRegex(tushar.CommandError, f"found ranks={ranks}, expected at least 1"):
+                tushar.run(SOD, ranks=ranks, output=self.folder)
+        with mock.patch.dict(os.environ, SUS=find_sus(), PATH="/none"):
+            with self.assertRaisesRegex(tushar.SusError, "'mpirun' was not found on the PATH"):
+                tushar.run(SOD, ranks=2, output=self.folder)
+
     def test_without_a_folder_its_files_go_away_with_it(self):
         archive = tushar.run(SOD, TUBE).archive
         folder = pathlib.Path(archive.folder)
@@ -148,6 +156,11 @@ class Sweep(InFolder):
         self.assertEqual([type(point.error) for point in self.sweep.failed], [tushar.InputError] * 2)
         with self.assertRaisesRegex(tushar.InputError, "expected a value greater than 0"):
             self.sweep[2].archive
+
+    def test_values_that_are_no_list_are_refused(self):
+        for value in (0.1, "0.1"):
+            with self.assertRaisesRegex(tushar.CommandError, rf"{CFL}: found {value!r}, expected a list of values"):
+                tushar.sweep(SOD, {CFL: value})
 
     def test_archives_stay_in_the_folder_that_was_named(self):
         self.assertAlmostEqual(self.sweep[5].archive.times[-1], 0.05)

@@ -127,6 +127,23 @@ class Build(unittest.TestCase):
                                       cwd=self.here / "build/release", text=True, timeout=30)
                 self.assertEqual((done.stderr, done.returncode), ("", 0))
 
+    def test_a_folder_of_another_place_is_left_alone(self):
+        cache = self.here / "build/release/CMakeCache.txt"
+        script = f"set -euo pipefail; . {self.here}/tools/lib/build.sh; mapfile -t modules < <(built_modules release); "
+        run = ["bash", "-c", script + "build release sus"]
+        commands = self.commands(f"touch {self.here}/built")
+        for home, fits in ((ROOT, False), ("/gone", False), (self.here, True)):
+            cache.write_text(f"CMAKE_HOME_DIRECTORY:INTERNAL={home}\n")
+            for name, command in {**commands, "run": run}.items():
+                if name == "run" and fits:
+                    continue  # it would start the real ninja
+                with self.subTest(name, home=home):
+                    done = subprocess.run(command, capture_output=True, text=True)
+                    said = "" if fits else (f"tushar: build/release was made for {home}, before the tree was copied or "
+                                            f"moved; delete it: rm -r {self.here}/build/release\n")
+                    self.assertEqual((done.stderr, done.returncode), (said, 0 if fits else 1))
+                    self.assertEqual((self.here / "built").exists(), fits)
+
     def test_what_outlives_a_build_does_not_keep_the_lock(self):
         sleeper = f"sleep 60 >/dev/null 2>&1 & echo $! > {self.here}/pid"
         for name, command in self.commands(sleeper).items():

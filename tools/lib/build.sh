@@ -116,6 +116,17 @@ run_ninja() {
   return "${PIPESTATUS[0]}"
 }
 
+# check_place FOLDER: ends with a sentence if the folder was made for another place of the tree, before it was copied or
+# moved. ninja would write to that place, again and again.
+check_place() {
+  local home
+  home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$1/CMakeCache.txt" 2>/dev/null) || true
+  if [ -n "$home" ] && [ ! "$home" -ef "$root" ]; then
+    say "${1#"$root"/} was made for $home, before the tree was copied or moved; delete it: rm -r $1"
+    exit 1
+  fi
+}
+
 # configure_and_build PRESET LOG [TARGET...]: configures where that has not been done, then builds.
 configure_and_build() {
   local preset=$1 log=$2
@@ -135,6 +146,7 @@ build() {
     say "build/$preset is not yours to write: sus is taken as it is there"
     return 0
   fi
+  check_place "$folder"
   mkdir -p "$folder"
   log=$(mktemp)
   if ! locked "$folder" configure_and_build "$preset" "$log" "$@"; then
@@ -149,6 +161,7 @@ build() {
 built_modules() {
   local folder=$root/build/$1 file name
   [ -f "$folder/build.ninja" ] || return 0
+  check_place "$folder" 2>/dev/null  # `build` says it
   # A module that was removed from the sources, as by another branch, is no target of the new build.ninja.
   if [ -w "$folder" ]; then locked "$folder" run_ninja "$folder" /dev/null build.ninja || true; fi
   for file in "$folder"/modules/tushar_*.so "$folder"/libtushar_petsc.so; do

@@ -10,7 +10,7 @@ import tempfile
 import weakref
 from typing import Any, Dict, List, Mapping, Optional, Sequence
 
-from tushar.errors import BY_EXIT_CODE, SusError
+from tushar.errors import BY_EXIT_CODE, CommandError, SusError
 from tushar.program import Path, command_of, find_sus
 
 # Open MPI refuses root, and more ranks than cores, unless it is allowed to.
@@ -86,7 +86,11 @@ def _finish(command: List[str], ranks: int, timeout: Optional[float], scene: Pat
     """Waits for a run; returns its exit code and standard error. If an exception (Ctrl-C) interrupts the wait, the run
     is ended."""
     environment = {**os.environ, **(MPI if ranks > 1 else {})}
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment)
+    try:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                   env=environment)
+    except FileNotFoundError:
+        raise SusError(f"'{command[0]}' was not found on the PATH; on Debian: apt install openmpi-bin") from None
     try:
         _, errors = process.communicate(timeout=timeout)
     except subprocess.TimeoutExpired:
@@ -109,6 +113,8 @@ def _end(process: subprocess.Popen[str]) -> None:
 
 def launcher(ranks: int) -> List[str]:
     """The command that starts a program on several ranks; empty for one rank."""
+    if ranks < 1:
+        raise CommandError(f"found ranks={ranks}, expected at least 1")
     return [] if ranks == 1 else ["mpirun", "-n", str(ranks)]
 
 

@@ -8,7 +8,7 @@ import pathlib
 from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, Optional, Sequence
 
-from tushar.errors import SusError
+from tushar.errors import CommandError, SusError
 from tushar.program import Path
 from tushar.runs import Run, run
 
@@ -74,6 +74,9 @@ def sweep(scene: Path, values: Mapping[str, Sequence[Any]], *, jobs: Optional[in
     cores allow). `sets` are overrides for all runs. Archives are written to `output`/000, 001, …, by default to folders
     that are deleted with the sweep. A failed run becomes a point with an error; the others continue. `options` are
     those of `run`."""
+    for path, several in values.items():
+        if isinstance(several, str) or not hasattr(several, "__iter__"):
+            raise CommandError(f"{path}: found {several!r}, expected a list of values, such as [{several!r}]")
     combinations = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
     common = dict(sets or {})
 

@@ -16,6 +16,14 @@ if TYPE_CHECKING:
 FEW = 64  # rows that are read one by one; of more, all between the first and the last
 
 
+def checked_ids(ids: Any) -> Values:
+    """The ids as an array; raises ArchiveError if some are not whole numbers from 0 on."""
+    given = np.atleast_1d(np.asarray(ids))
+    if given.size and (given.dtype.kind not in "iu" or given.min() < 0):
+        raise ArchiveError(f"found {str(ids)[:60]}, expected ids of particles, which are whole numbers from 0 on")
+    return given.astype(np.uint64)
+
+
 class Tracks:
     """Particles by their ids over all outputs: `tracks["p.x"]` has the shape (times, ids) or (times, ids, components),
     NaN if a particle does not exist. Whatever is asked for is read then, and not kept."""
@@ -29,7 +37,7 @@ class Tracks:
         if ids is None:
             with archive[-1] as last:
                 ids = last.particles(material).ids.values
-        self.ids: Values = np.atleast_1d(np.asarray(ids)).astype(np.uint64)
+        self.ids: Values = checked_ids(ids)
 
     @property
     def times(self) -> Values:
