@@ -46,8 +46,7 @@ double BlendLaws::Substance::densityAt(double pressure, double temperature, doub
   const double heat = gruneisen * specificHeat * temperature;
   if (!law) return (pressure + pInfinity) / heat;
   const ColdCurve& cold = law->cold();
-  if (isLinear())
-    return cold.density * (1 + (pressure - cold.pressureThere - heat * cold.density) / cold.a);
+  if (isLinear()) return cold.density * (1 + (pressure - cold.pressureThere - heat * cold.density) / cold.a);
   if (cold.kind == ColdCurve::Kind::murnaghan && gruneisen == 0) return densityOfMurnaghan(cold, pressure);
   // In logarithms, pressure and density are nearly proportional to each other.
   double rho = guess, low = 0, high = std::numeric_limits<double>::infinity();
@@ -66,10 +65,10 @@ double BlendLaws::Substance::densityAt(double pressure, double temperature, doub
 
 /// Sums over the gases at a pressure and a temperature, and their derivatives.
 struct BlendLaws::Sums {
-  double volume = 0, energy = 0;                    ///< sum of m / rho, sum of m e
-  double volumeOfPressure = 0, volumeOfHeat = 0;    ///< derivatives with respect to p and T
-  double energyOfPressure = 0, energyOfHeat = 0;    ///< the same for the energy
-  double capacity = 0;                              ///< sum of m c_p [J/(m³ K)]
+  double volume = 0, energy = 0;                  ///< sum of m / rho, sum of m e
+  double volumeOfPressure = 0, volumeOfHeat = 0;  ///< derivatives with respect to p and T
+  double energyOfPressure = 0, energyOfHeat = 0;  ///< the same for the energy
+  double capacity = 0;                            ///< sum of m c_p [J/(m³ K)]
 
   void add(double mass, double rho, const Substance& of, double temperature) {
     const double linear = of.isLinear() ? of.law->cold().density : rho, heat = of.gruneisen * of.specificHeat;
@@ -186,8 +185,8 @@ Blend BlendLaws::at(const double* masses, double energy) const {
   blend.modulus = std::max(sums.modulus(temperature), 1e-12 * energy);
   constexpr double tolerance = 1e-8;
   blend.isPossible = temperature > 0 && blend.modulus > 0 && std::isfinite(blend.modulus) &&
-                     std::abs(sums.energy - energy) <= tolerance * energy &&
-                     (sums.volume < 1 + tolerance) && (pressure <= 2 * leastPressure || sums.volume > 1 - tolerance);
+                     std::abs(sums.energy - energy) <= tolerance * energy && (sums.volume < 1 + tolerance) &&
+                     (pressure <= 2 * leastPressure || sums.volume > 1 - tolerance);
   return blend;
 }
 

@@ -74,8 +74,7 @@ class BlendLaws {
 
   Sums sumsAt(const double* masses, double pressure, double temperature, std::array<double, kMostGases>& rho) const;
   /// The temperature at which the gases have a given energy at a given pressure.
-  double temperatureAt(const double* masses, double energy, double pressure,
-                       std::array<double, kMostGases>& rho) const;
+  double temperatureAt(const double* masses, double energy, double pressure, std::array<double, kMostGases>& rho) const;
   /// Finds p and T by bisection, where Newton's method fails.
   void bisect(const double* masses, double energy, double& pressure, double& temperature,
               std::array<double, kMostGases>& rho) const;

@@ -244,8 +244,7 @@ std::vector<Reaction> reactionsOf(const GasScene& scene) {
     return static_cast<std::size_t>(std::find_if(gases.begin(), gases.end(), isIt) - gases.begin());
   };
   std::vector<Reaction> reactions;
-  for (const PressureBurn& one : scene.reactions)
-    reactions.push_back({indexOf(one.from), indexOf(one.to), one});
+  for (const PressureBurn& one : scene.reactions) reactions.push_back({indexOf(one.from), indexOf(one.to), one});
   return reactions;
 }
 

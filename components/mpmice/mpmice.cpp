@@ -199,8 +199,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
-  if (areBlended(settings_))
-    tasks.perPatch("mpmice::closeGases", closeGases<D>, with(settings_), reacting);
+  if (areBlended(settings_)) tasks.perPatch("mpmice::closeGases", closeGases<D>, with(settings_), reacting);
   scheduleSums(tasks, materials);
   if (burns())
     tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresOld(p::mass), requiresNew(p::mass),

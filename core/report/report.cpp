@@ -184,8 +184,7 @@ std::string uniformLine(const Report& report) {
 std::string updatesLine(const Report& report) {
   std::string updates;
   for (const double one : report.levelUpdates) updates += fmt::format("{}{:.4g}", updates.empty() ? "" : " + ", one);
-  return updates.empty() ? ""
-                         : fmt::format("  cell updates by level, each with its own time steps: {}\n", updates);
+  return updates.empty() ? "" : fmt::format("  cell updates by level, each with its own time steps: {}\n", updates);
 }
 
 /// The number of cells of each level, and the cost of updating and regridding them.

@@ -149,9 +149,8 @@ class Interpolation {
   }
   /// Sets the slopes of cells of the stretch to 0.
   void clear(const Box& cells, double* quarter) const {
-    grid::forEachRow<3>(cells, [&](const Index3& first, int count) {
-      std::fill_n(quarter + offsetOf(first), count * numbers(), 0.0);
-    });
+    grid::forEachRow<3>(
+        cells, [&](const Index3& first, int count) { std::fill_n(quarter + offsetOf(first), count * numbers(), 0.0); });
   }
   /// The distance in memory of a coarse cell from the first of the stretch.
   std::ptrdiff_t offsetOf(const Index3& parent) const {

@@ -9,8 +9,7 @@ namespace tushar::euler {
 namespace {
 
 Gas gasOf(const ColdCurve& cold, double gamma, double specificHeat) {
-  return {.specificHeat = specificHeat,
-          .law = std::make_shared<const Gas::Law>(CurvedGas(cold, gamma, specificHeat))};
+  return {.specificHeat = specificHeat, .law = std::make_shared<const Gas::Law>(CurvedGas(cold, gamma, specificHeat))};
 }
 /// An explosive, its products by JWLC and by JWL, and air.
 Gas explosive() {

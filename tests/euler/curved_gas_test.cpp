@@ -54,9 +54,7 @@ Gas attracted() {
       {.gasConstant = 300, .specificHeat = 750, .attraction = 100, .covolume = 1e-3, .u = 2.414214, .w = -0.414214}));
 }
 /// The products of Uintah's IS/hollow_AMR.ups, whose molecules are hard spheres.
-Gas spheres() {
-  return gasOf(RealGas({.gasConstant = 0.4 * 716, .specificHeat = 716, .covolume = 1.4e-3}));
-}
+Gas spheres() { return gasOf(RealGas({.gasConstant = 0.4 * 716, .specificHeat = 716, .covolume = 1.4e-3})); }
 /// The JWL law without its exponentials, which is an ideal gas.
 Gas idealByLaw() { return gasOf(CurvedGas({.density = 1}, 0.4, 716)); }
 

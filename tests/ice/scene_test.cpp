@@ -142,7 +142,7 @@ TEST(IceScene, RefusesSolids) {
 TEST(IceScene, RefusesOtherEquationsOfState) {
   EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"KnaussSeaWater\"><a>1</a></EOS>")),
             "attribute 'type': found 'KnaussSeaWater', expected 'ideal_gas', 'stiffened_gas', 'JWL', 'JWLC', "
-            "'Murnaghan', 'Gruneisen', 'Thomsen_Hartka_water' or 'TST'");
+            "'Murnaghan', 'Gruneisen', 'Thomsen_Hartka_water', 'TST' or 'hard_sphere_gas'");
 }
 
 TEST(IceScene, TellsWhichNumberOfAnEquationOfStateIsMissing) {
@@ -226,7 +226,7 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 TEST(IceScene, RefusesModels) {
   EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT0\"/></Models>\n  <CFD>")),
             "the type 'DDT0' is not available; remove the model, or use one of PassiveScalar, Test, Simple_Burn, "
-            "Steady_Burn, DDT1, LightTime, BinaryProperties");
+            "Steady_Burn, DDT1, JWLpp, LightTime, BinaryProperties");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

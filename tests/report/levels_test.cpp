@@ -41,8 +41,7 @@ TEST(Levels, HaveTheirUpdatesInTheReportWhereEachTakesItsOwnSteps) {
   EXPECT_FALSE(nlohmann::json::parse(toJson(report)).contains("level_updates"));
   report.levelUpdates = {10, 2500, 120946};
   EXPECT_EQ(nlohmann::json::parse(toJson(report))["level_updates"], report.levelUpdates);
-  const std::string line =
-      "3 regrids\n  cell updates by level, each with its own time steps: 10 + 2500 + 1.209e+05\n";
+  const std::string line = "3 regrids\n  cell updates by level, each with its own time steps: 10 + 2500 + 1.209e+05\n";
   EXPECT_NE(toText(report).find(line), std::string::npos) << toText(report);
 }
 

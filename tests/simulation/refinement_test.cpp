@@ -74,10 +74,10 @@ double wrongMarks() {
   list.perPatch("fill", fillAny<D>, computes(anyNumber), computes(anyVector<D>));
   list.add(markTask(criteria));
   const auto compare = [](const Patch& patch, CellView<const double> numbers, CellView<const Vec<D>> vectors,
-                          CellView<const int> marks, Sum& wrong) {
+                          CellView<const int> marks, Sum& sum) {
     forEach<D>(patch.cells(), [&](const Index<D>& cell) {
       const double most = std::max(jumpAt<D>(patch.level(), numbers, cell), jumpAt<D>(patch.level(), vectors, cell));
-      wrong.add(marks[cell] != (most > 0.16 ? 2 : most > 0.08 ? 1 : 0));
+      sum.add(marks[cell] != (most > 0.16 ? 2 : most > 0.08 ? 1 : 0));
     });
   };
   list.perPatch("compare", compare, requiresNew(anyNumber, 1), requiresNew(anyVector<D>, 1),

@@ -161,10 +161,9 @@ TEST(Solver, TellsHowASolveFailed) {
   EXPECT_EQ(outcome.residuals.size(), 4U);
   EXPECT_TRUE(outcome.worst >= 0 && outcome.worst < 40);
   const std::string sentence = sentenceOf("a row", outcome);
-  EXPECT_EQ(
-      sentence.find("a row did not converge: more iterations than allowed (DIVERGED_ITS), after 3 iterations; "
-                    "residuals 6.32, "),
-      0U)
+  EXPECT_EQ(sentence.find("a row did not converge: more iterations than allowed (DIVERGED_ITS), after 3 iterations; "
+                          "residuals 6.32, "),
+            0U)
       << sentence;
 }
 
@@ -300,8 +299,7 @@ TEST(Newton, TellsOfTheLinearSolveThatFailed) {
   EXPECT_FALSE(outcome.converged);
   EXPECT_EQ(outcome.reason, "a linear solve failed, more iterations than allowed (DIVERGED_ITS)");
   EXPECT_EQ(outcome.krylovResiduals.size(), 4U);
-  EXPECT_NE(sentenceOf("it", outcome).find("; last linear solve: 3 iterations; residuals "),
-            std::string::npos);
+  EXPECT_NE(sentenceOf("it", outcome).find("; last linear solve: 3 iterations; residuals "), std::string::npos);
 }
 
 TEST(Newton, TellsThatItGaveUp) {

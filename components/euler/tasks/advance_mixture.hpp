@@ -40,8 +40,7 @@ std::array<double, kMostGases> massesIn(const std::vector<Held>& held, const Ind
 
 /// The same for gases of any law, given the internal energy per volume [J/m³].
 template <class Held, int D>
-MixedGas lawAt(const std::vector<Settings>& gases, const std::vector<Held>& held, double energy,
-               const Index<D>& cell) {
+MixedGas lawAt(const std::vector<Settings>& gases, const std::vector<Held>& held, double energy, const Index<D>& cell) {
   if (!gases.front().blend) return mixedAt(gases, held, cell);
   return gases.front().blend->at(massesIn(held, cell).data(), energy).law(energy);
 }

@@ -108,9 +108,9 @@ void computePressure(const Patch& patch, const Gas& gas, CellView<const double> 
                      CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, CellView<double> pressure) {
   forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
     double* to = rowOf(pressure, first, count);
-    forEachState<D>(
-        gas, rowOf(density, first, count), rowOf(momentum, first, count)->data(), rowOf(totalEnergy, first, count),
-        count, [to](const auto& law, std::ptrdiff_t k, double rho, double e) { to[k] = law.pressure(rho, e); });
+    forEachState<D>(gas, rowOf(density, first, count), rowOf(momentum, first, count)->data(),
+                    rowOf(totalEnergy, first, count), count,
+                    [to](const auto& law, std::ptrdiff_t k, double rho, double e) { to[k] = law.pressure(rho, e); });
   });
 }
 

@@ -95,11 +95,10 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
 /// Adds the task that finds the volume fractions of gases with laws of their own.
 template <int D>
 void MixtureIce<D>::scheduleClosing(TaskList& tasks) const {
-  tasks.acrossMaterials("ice::closeBlend", euler::closeBlend<D>, gases_,
-                        withoutMaterial(requiresNew(euler::c::density)),
-                        withoutMaterial(requiresNew(euler::c::momentum<D>)),
-                        withoutMaterial(requiresNew(euler::c::totalEnergy)), requiresNew(euler::c::gasMass),
-                        modifies(euler::c::gasShare));
+  tasks.acrossMaterials(
+      "ice::closeBlend", euler::closeBlend<D>, gases_, withoutMaterial(requiresNew(euler::c::density)),
+      withoutMaterial(requiresNew(euler::c::momentum<D>)), withoutMaterial(requiresNew(euler::c::totalEnergy)),
+      requiresNew(euler::c::gasMass), modifies(euler::c::gasShare));
 }
 
 template <int D>

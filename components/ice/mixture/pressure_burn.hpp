@@ -10,7 +10,7 @@
 namespace tushar::ice {
 
 /// JWL++: an explosive becomes gas at a rate that depends on the pressure, dF/dt = G p^b (1 - F), where F is the burned
-/// fraction. Source: P. C. Souers, S. Anderson, J. Mercer, E. McGuire & P. Vitello, Propellants, Explosives,
+/// fraction. Source: P. C. Souers & al., Propellants, Explosives,
 /// Pyrotechnics 25 (2000) 54. As in Uintah, artificial viscosity is not part of p, and a step converts at most a fifth
 /// of the density of the explosive.
 struct PressureBurn {
