@@ -93,7 +93,7 @@ bool isWall(const Place& place, const Gas& gas);
 /// values. Throws NumericalError if a formula gives an impossible density or p + p_inf.
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
-/// The same, with rules only for the sides beyond which a box of cells reaches.
+/// The rules that follow from the scene's conditions, only for the sides beyond which a box of cells reaches.
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time, const Box& cells);
 

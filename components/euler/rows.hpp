@@ -69,7 +69,7 @@ void forEachBlock(const Box& box, const Index3& extents, Visit&& visit) {
     visit(block);
   });
 }
-/// The same for blocks of work.
+/// Calls `visit(block)` for blocks of work, with the extents blockOf(box), that tile the box.
 template <int D, class Visit>
 void forEachBlock(const Box& box, Visit&& visit) {
   forEachBlock<D>(box, blockOf<D>(box), std::forward<Visit>(visit));

@@ -84,7 +84,8 @@ class ParticleSet {
   /// Calls `visit(cell, particles)` for the cells of a box that contain particles, in lexicographic order.
   template <int D>
   void forEachOccupied(const grid::Box& box, VisitCell<D> visit) const;
-  /// The same, compiled together with `visit`: for visits so short that a call for each cell would cost more than they.
+  /// Calls `visit(cell, particles)` as forEachOccupied does, but is compiled together with `visit`: for visits that are
+  /// so short that a function call for each cell would cost more than they do.
   template <int D, class Visit>
   void forEachOccupiedInline(const grid::Box& box, const Visit& visit) const;
 
@@ -112,7 +113,8 @@ class ParticleSet {
   const ParticleRange* row(const Index<D>& cell) const {
     return ranges_[rowOf(cell)] + (cell[0] - cells_.lower[0]);
   }
-  /// The same for writing; valid until the next row is opened.
+  /// The particle ranges of consecutive cells along the first axis, starting at `cell`, for writing; valid until the
+  /// next row is opened.
   ParticleRange* openRow(const Index3& cell) { return ranges_.open(rowOf(cell)) + (cell[0] - cells_.lower[0]); }
   /// Makes space for about as many rows with particles as `other` has.
   void makeSpaceFor(const ParticleSet& other) { ranges_.makeSpaceFor(other.ranges_); }

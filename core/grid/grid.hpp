@@ -52,7 +52,8 @@ class Grid {
   /// Replaces the patches; returns the previous ones. Without given shares, ranks get as equal numbers of cells as the
   /// patches allow. The caller moves the values of the patches: see tasks::regrid.
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares = {});
-  /// The same for a grid of one level, whose cuts have been moved.
+  /// Replaces the patches of a grid of one level by patches whose cuts have moved; returns the previous ones. `shares`
+  /// and the values of the patches are as in refine().
   std::unique_ptr<Tiling> recut(std::unique_ptr<Tiling> tiling, RankOffsets shares = {});
   /// Cells of a patch of this rank that were part of coarser cells before the latest call of refine().
   const std::vector<Box>& newCells(int patch) const { return new_cells_[patch - first_patch_]; }

@@ -117,9 +117,9 @@ void unpack(const data::Label& label, const Piece& piece, const Variable& to, co
 }
 
 /// The variables to be transferred, and how they are packed; particles are on the finest level only, and remain there.
-class Luggage {
+class MigratedData {
  public:
-  Luggage(data::Warehouse& warehouse, const MigratedVariables& variables)
+  MigratedData(data::Warehouse& warehouse, const MigratedVariables& variables)
       : warehouse_(warehouse), materials_(variables.materials) {
     for (const int number : variables.variables) {
       const Centring centring = label(number).centring;
@@ -243,30 +243,30 @@ class Luggage {
 
 /// The messages to other ranks: first the numbers of particles in all pieces, then all values.
 std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, const grid::Partition& owners,
-                            const Luggage& luggage) {
+                            const MigratedData& migrated) {
   const Pieces pieces(grid.patchTiling(), next, grid.dimension(), grid.levels());
   std::set<int> readers;
   for (const grid::Patch& patch : grid.patches()) pieces.findReaders(patch, readers);
   std::map<int, Bytes> parts;
   const int here = grid.share().rank, first = owners.firstOf(here), end = owners.firstOf(here + 1);
   const std::uint64_t cells = next.cellsBefore(end) - next.cellsBefore(first);
-  parts[here].reserve(cells * luggage.bytesOfCell());  // most values stay
+  parts[here].reserve(cells * migrated.bytesOfCell());  // most values stay
   const auto forEachPiece = [&](const auto& visit) {
     for (const int reader : readers)
       pieces.of(reader, [&](const Piece& piece) {
         if (grid.isMine(piece.from)) visit(piece, parts[owners.ownerOf(piece.to)]);
       });
   };
-  if (luggage.hasMaterials()) forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packCounts(piece, to); });
-  forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packValues(piece, to); });
+  if (migrated.hasMaterials()) forEachPiece([&](const Piece& piece, Bytes& to) { migrated.packCounts(piece, to); });
+  forEachPiece([&](const Piece& piece, Bytes& to) { migrated.packValues(piece, to); });
   return parts;
 }
 
 /// The distribution with the most equal costs of ranks. Empty if there are no particles, because patches are then
 /// distributed by numbers of cells.
 grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::Tiling& next, const mpi::Communicator& ranks,
-                           const Luggage& luggage, const PatchCosts& costs) {
-  if (ranks.isAlone() || !luggage.hasMaterials()) return {};
+                           const MigratedData& migrated, const PatchCosts& costs) {
+  if (ranks.isAlone() || !migrated.hasMaterials()) return {};
   std::vector<double> ofPatches(static_cast<std::size_t>(next.count()));
   const Pieces pieces(grid.patchTiling(), next, grid.dimension(), grid.levels());
   std::set<int> readers;
@@ -274,7 +274,7 @@ grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::Tiling& next, con
     if (grid.isFinest(patch)) pieces.findReaders(patch, readers);
   for (const int reader : readers)
     pieces.of(reader, [&](const Piece& piece) {
-      if (grid.isMine(piece.from)) ofPatches[reader] += luggage.particlesOf(piece);
+      if (grid.isMine(piece.from)) ofPatches[reader] += migrated.particlesOf(piece);
     });
   ranks.sum(ofPatches);
   for (int patch = 0; patch < next.count(); ++patch) {
@@ -311,29 +311,29 @@ template <class Replace>
 void changePatches(grid::Grid& grid, const grid::Tiling& next, data::Warehouse& warehouse,
                    const MigratedVariables& variables, const PatchCosts& costs, Replace&& replace) {
   const mpi::Communicator& ranks = warehouse.ranks();
-  const Luggage luggage(warehouse, variables);
-  grid::RankOffsets shares = sharesOf(grid, next, ranks, luggage, costs);
+  const MigratedData migrated(warehouse, variables);
+  grid::RankOffsets shares = sharesOf(grid, next, ranks, migrated, costs);
   const grid::Partition owners = shares.empty() ? grid::Partition(next, ranks.size()) : grid::Partition(next, shares);
   const grid::Partition ownersBefore(grid.patchTiling(), grid.rankOffsets());
-  std::map<int, Bytes> parts = packed(grid, next, owners, luggage);  // by rank that they go to
+  std::map<int, Bytes> parts = packed(grid, next, owners, migrated);  // by rank that they go to
   mpi::Outbox outbox(ranks);
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
   const std::unique_ptr<grid::Tiling> before = replace(std::move(shares));
   warehouse.startAnew(variables.materials);
-  luggage.allocate();
+  migrated.allocate();
   const Pieces pieces(*before, grid.patchTiling(), grid.dimension(), grid.levels());
   Messages messages(ranks, parts);
   const auto forEachPiece = [&](const auto& visit) {
     for (const grid::Patch& patch : grid.patches())
       pieces.of(patch.id(), [&](const Piece& piece) { visit(piece, messages.of(ownersBefore.ownerOf(piece.from))); });
   };
-  luggage.beginSets();
-  if (luggage.hasMaterials())
-    forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackCounts(piece, from); });
-  luggage.endSets();
-  luggage.allocateParticles();
-  forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackValues(piece, from); });
+  migrated.beginSets();
+  if (migrated.hasMaterials())
+    forEachPiece([&](const Piece& piece, const std::byte*& from) { migrated.unpackCounts(piece, from); });
+  migrated.endSets();
+  migrated.allocateParticles();
+  forEachPiece([&](const Piece& piece, const std::byte*& from) { migrated.unpackValues(piece, from); });
   outbox.wait();
 }
 

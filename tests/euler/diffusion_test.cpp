@@ -40,7 +40,7 @@ class StillBox : public GasBox<D> {
                         view<const double>(oldEnergy, patch, 1)}},
                       0, dt, view<Vec<D>>(momentum, patch, 0), view<double>(energy, patch, 0), {});
   }
-  /// As above, with the task for viscosities that vary in space.
+  /// Adds the diffusion of a step of dt [s], with the task for viscosities that vary in space.
   void diffuse(const VaryingDiffusion& varying, double dt) {
     const auto oldMomentum = momentum;
     const auto oldEnergy = energy;

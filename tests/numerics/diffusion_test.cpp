@@ -29,7 +29,7 @@ double diffusionIn(int cell, const grid::Domain& domain, const input::Expression
   return diffusion(data::CellView<const double>(phi.data(), level.cells()), Index<1>{{cell}});
 }
 
-/// As above, computed from the row of a linear system.
+/// Returns div(k grad phi) in a cell of a line, computed from the row of a linear system.
 double balanceIn(int cell, const grid::Domain& domain, const input::Expression& k, std::vector<double> phi) {
   const grid::Level level(domain);
   const Balance<1> balance = Diffusion<1>(level, k, phiLabel).balance(Index<1>{{cell}});

@@ -16,7 +16,7 @@ void expectDueBetween(const CheckpointControl& control, const Moment& before, co
   EXPECT_FALSE(control.isDue(before.step, before.time, before.wallTime));
   EXPECT_TRUE(control.isDue(after.step, after.time, after.wallTime));
 }
-/// As above, after a checkpoint at `last`.
+/// Expects that after a checkpoint at `last` the next one is not yet due at `before`, but due at `after`.
 void expectNextBetween(CheckpointControl& control, const Moment& last, const Moment& before, const Moment& after) {
   control.note(last.time, last.wallTime);
   expectDueBetween(control, before, after);

@@ -81,7 +81,7 @@ int wrongGhosts(const Grid& grid, int width) {
   return wrong;
 }
 
-/// As above, for some random trees.
+/// Returns the sum of wrongGhosts over grids with random trees of blocks.
 int wrongGhostsOfTrees(int dimension, int width, int blockCells) {
   std::mt19937 random(7);
   int wrong = 0;

@@ -38,7 +38,7 @@ std::array<double, kMostGases> massesIn(const std::vector<Held>& held, const Ind
   return masses;
 }
 
-/// The same for gases of any law, given the internal energy per volume [J/m³].
+/// The law of the gases in a cell, each of any law; `energy` is the internal energy per volume [J/m³].
 template <class Held, int D>
 MixedGas lawAt(const std::vector<Settings>& gases, const std::vector<Held>& held, double energy, const Index<D>& cell) {
   if (!gases.front().blend) return mixedAt(gases, held, cell);

@@ -25,7 +25,8 @@ struct Work {
   Work(const Box& cells, int reach) : Work(Rows<D, K>(roomOf(cells, reach)), roomOf(cells, reach), reach > 1, {}) {}
   /// Number of cells of the largest block of a patch, including the cells around it.
   static std::size_t roomOf(const Box& cells, int reach) { return largestBlock<D>(cells).grown(reach, D).size(); }
-  /// The same for steps that write the values of all cells of a block.
+  /// Allocates space for the blocks of a patch without initialising it, for steps that write the values of all cells of
+  /// a block.
   static Work unfilled(const Box& cells, int reach) {
     const std::size_t room = roomOf(cells, reach);
     return {Rows<D, K>::unfilled(room), room, reach > 1, {}};

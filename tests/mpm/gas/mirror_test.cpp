@@ -42,7 +42,7 @@ std::string geomObject(const Body& body, const Signs& signs) {
       fmt::join(lower, ","), fmt::join(upper, ","), fmt::join(velocity, ","), body.density, body.pressure);
 }
 
-/// As above, with values that vary within cells.
+/// Returns a geom_object, mirrored by `signs`, whose values vary within cells.
 std::string varying(const Signs& signs) {
   const std::string x = fmt::format("({}*x)", signs[0]), y = fmt::format("({}*y)", signs[1]);
   return fmt::format(

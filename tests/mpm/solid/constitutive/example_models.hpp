@@ -115,7 +115,7 @@ inline ViscoScram explosive() {
   model.material = {2, 0.5, 2000, 294};
   return model;
 }
-/// As above, with an expansion of 1/1000 per kelvin: K = 6.5 Pa.
+/// An explosive with a thermal expansion of 1/1000 per kelvin: K = 6.5 Pa.
 inline ExpandingViscoScram hotExplosive() {
   ExpandingViscoScram model{explosive()};
   model.scram.thermalExpansion = 1e-3;
