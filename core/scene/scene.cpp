@@ -89,7 +89,8 @@ const ComponentKind* readComponentKind(const Element& root, const Catalogue& cat
   const ComponentKind* kind = catalogue.component(type);
   if (!kind)
     diagnostics.error(tag->whereOf("type"), tag->path(),
-                      "type: " + input::choiceProblem(read.type, catalogue.componentNames()));
+                      "type: " + input::choiceProblem(read.type, catalogue.componentNames()) +
+                          "; --load FILE loads one of your own");
   return kind;
 }
 

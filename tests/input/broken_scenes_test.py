@@ -20,7 +20,7 @@ OVERRIDES = {
     "unknown component": ("SimulationComponent/@type=mpn",
                           "SimulationComponent: type: found 'mpn', expected 'burgers', 'euler', 'heat', 'ice', "
                           "'implicit_heat', 'impm', 'mpm', 'mpmice', 'poisson' or 'rmpmice' (did you mean "
-                          "'mpm'?)"),
+                          "'mpm'?); --load FILE loads one of your own"),
     "unknown tag": (BOX + "resolutoin=[3,1,1]", BOX + "resolutoin: unknown tag <resolutoin> in <Box> (did you mean "
                     "'resolution'?); allowed here: lower, upper, resolution, patches, autoPatch, extraCells"),
     "unknown section": ("Gird/x=1", "Gird: unknown section <Gird> (did you mean 'Grid'?); allowed here: Meta, "
