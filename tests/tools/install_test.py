@@ -79,6 +79,17 @@ class Install(unittest.TestCase):
         unknown = self.run_away(scene)
         self.assertEqual(unknown.returncode, 3)
         self.assertIn("wave", unknown.stderr)
+        self.refuses_flags_of_its_sources(outside, scene)
+
+    def refuses_flags_of_its_sources(self, outside, scene):
+        """The repository gives its sources, not the card, flags that the program does not have."""
+        has = "-DTUSHAR_CHECKS" in modules.compile_command()
+        with open(outside / "CMakeLists.txt", "a") as lists:
+            lists.write(f"target_compile_options(tushar_wave_objects PRIVATE -{'UD'[not has]}TUSHAR_CHECKS)\n")
+        modules.must(["cmake", "--build", outside / "build", "--target", "tushar_wave"])
+        loaded = self.run_away([*scene, "--load", outside / "build/tushar_wave.so"])
+        self.assertEqual(loaded.returncode, 1)
+        self.assertIn(f"it was compiled with{'out' if has else ''} TUSHAR_CHECKS", loaded.stderr)
 
     def test_a_repository_outside_replaces_nothing(self):
         (self.here / "mine").mkdir()

@@ -69,7 +69,8 @@ class NewComponent(unittest.TestCase):
     def test_refuses_a_name_that_is_taken_or_is_none(self):
         before = sorted(self.copy.rglob("*"))
         for name, sentence in (("heat", "components/heat exists already"), ("9lives", "cannot be the name of a folder"),
-                               ("class", "cannot be the name of a folder"), ("grid", "tests/grid exists already"),
+                               ("class", "cannot be the name of a folder"), ("tests", "is the name of a folder"),
+                               ("main", "is the name of a folder or function"), ("grid", "tests/grid exists already"),
                                ("simulation", "tests/simulation exists already"), ("std", "already use the name std"),
                                ("patch", "already use the name Patch"), ("settings", "already use the name Settings")):
             done = subprocess.run([self.copy / "tools/new_component", name], capture_output=True, text=True)

@@ -44,6 +44,11 @@ function(tushar_module name)
   add_library(tushar_${name} SHARED ${CMAKE_CURRENT_BINARY_DIR}/${name}_card.cpp)
   add_library(Tushar::${name} ALIAS tushar_${name})
   target_link_libraries(tushar_${name} PRIVATE ${parts} ${module_NEEDS})
+  # The card is compiled like the sources, so that it tells sus about the flags that a repository gave to them alone.
+  foreach(flags OPTIONS DEFINITIONS)
+    set_property(TARGET tushar_${name} APPEND PROPERTY COMPILE_${flags}
+                 $<TARGET_PROPERTY:tushar_${name}_objects,COMPILE_${flags}>)
+  endforeach()
   target_link_options(tushar_${name} PRIVATE -Wl,-z,defs -Wl,-Bsymbolic-functions)
   set_target_properties(tushar_${name} PROPERTIES PREFIX "" EXPORT_NAME ${name} BUILD_RPATH "$ORIGIN;$ORIGIN/.."
     INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
