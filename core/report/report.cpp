@@ -161,9 +161,9 @@ std::string memoryLine(const Report& report) {
 }
 
 /// The cost of updating a cell on several levels, relative to the cost on a uniform grid, by the number of dimensions:
-/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15 in one
-/// dimension, 1.8 to 3.1 in two, and 1.9 in three.
-double costOnLevels(int dimension) { return std::array{10.0, 2.5, 1.9}.at(std::clamp(dimension, 1, 3) - 1); }
+/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 5 to 10 in one dimension,
+/// 1.4 to 1.6 in two, and 1.5 to 1.6 in three.
+double costOnLevels(int dimension) { return std::array{7.0, 1.6, 1.6}.at(std::clamp(dimension, 1, 3) - 1); }
 
 /// The estimated cost of a uniform grid of the finest cells, and whether refinement has paid off.
 std::string uniformLine(const Report& report) {

@@ -343,6 +343,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
     amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);
   problem.smallerSteps = smallerStepsOn(*problem.grid, amr, diagnostics);
   problem.regrid = settled(std::move(amr), *problem.component, diagnostics);
+  problem.regrid.adaptive = problem.regrid.adaptive && problem.grid->levels() > 1;
   diagnostics.throwIfAny();
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
   problem.analyses = makeModules(modules, *problem.component, problem.grid->finest());

@@ -242,7 +242,7 @@ class Refiner {
     if (asked < given)
       diagnostics_.error(place, fmt::format("found {}, but the Levels of <Grid> define {} levels", asked, given));
     else if (isAdaptive && asked < 2)
-      diagnostics_.error(place, "found 1, expected at least 2, since the grid is <adaptive>");
+      diagnostics_.note(place, "with one level, <adaptive> does nothing");
     else if (!isAdaptive && asked > given)
       diagnostics_.note(place,
                         "does nothing: the grid is not <adaptive>, so its Levels alone determine what is refined");

@@ -66,6 +66,7 @@ class Phases {
   tasks::Names saveable() const;
 
  private:
+  void printLevels(std::ostream& out) const;
   struct Lists {
     tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics, errorEstimate, refine, reflux;
   };
@@ -93,6 +94,8 @@ class Phases {
   std::vector<std::string> state_, lasting_, saved_globals_, materials_;
   std::vector<SaveRequest> saved_fields_;
   std::vector<ConservedTotal> totals_;
+  int levels_ = 1;
+  bool smaller_steps_ = false;  ///< whether finer levels take smaller steps
 };
 
 }  // namespace tushar::simulation

@@ -181,7 +181,11 @@ class LevelSteps(FolderTest):
         advance, after = shown.split("after the steps of the next finer level\n")
         self.assertIn("register fluxes of c.density", advance)
         self.assertIn("reflux c.density", after)
-        self.assertNotIn("register", run("ups/euler/sod_levels.ups", options=("-schedule",)).out)
+        together = run("ups/euler/sod_levels.ups", options=("-schedule",)).out
+        self.assertNotIn("register", together)
+        self.assertIn("each task runs on the patches of all 4 levels, with the same time step\n", together)
+        self.assertIn("particles are on level 3, the finest",
+                      run("ups/solid/penetration_levels.ups", options=("-schedule",)).out)
 
 
 if __name__ == "__main__":

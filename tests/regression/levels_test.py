@@ -205,6 +205,9 @@ class Levels(FolderTest):
         refined = self.ran(text, steps(40))[1]
         plain = self.ran(re.sub("<AMR>.*</AMR>", "", text), steps(40))[1]
         self.assertEqual(refined["fingerprint"], plain["fingerprint"])
+        refined = run("ups/euler/sod_levels.ups", REGRIDDER + "max_levels=1", steps(40)).report  # adaptive, by criteria
+        plain = run("ups/euler/sod.ups", BASE + "[100,1,1]", steps(40)).report
+        self.assertEqual(refined["fingerprint"], plain["fingerprint"])
 
     def test_levels_everywhere_are_the_uniform_fine_grid(self):
         described = {"pressure": "1 + 10*exp(-((x - .25)^2 + (y + .125)^2)/0.01)"}

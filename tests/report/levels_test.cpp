@@ -50,12 +50,12 @@ TEST(Levels, TheReportSaysWhereRefinementDoesNotPay) {
   Report report = refined();
   EXPECT_EQ(toText(report).find(advice), std::string::npos);
   report.dimension = 1;
-  EXPECT_NE(toText(report).find("4 times as many\n" + advice + "10 times as long on several levels\n"),
+  EXPECT_NE(toText(report).find("4 times as many\n" + advice + "7 times as long on several levels\n"),
             std::string::npos);
   report.dimension = 3;
   EXPECT_EQ(toText(report).find(advice), std::string::npos);
-  report.uniformUpdates = 1.8 * report.updates;
-  EXPECT_NE(toText(report).find("1.8 times as many\n" + advice + "1.9 times as long on several levels\n"),
+  report.uniformUpdates = 1.5 * report.updates;
+  EXPECT_NE(toText(report).find("1.5 times as many\n" + advice + "1.6 times as long on several levels\n"),
             std::string::npos);
 }
 
