@@ -11,10 +11,7 @@
 namespace tushar::analysis {
 
 using input::Element;
-using output::Snapshot;
-using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::SaveRequest;
 
 namespace {
 
