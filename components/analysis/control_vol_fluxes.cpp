@@ -13,10 +13,7 @@
 namespace tushar::analysis {
 
 using input::Element;
-using output::Snapshot;
-using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::SaveRequest;
 
 namespace {
 
@@ -179,6 +176,9 @@ void addBoxFlow(const Patch& patch, const Box& box, int material, CellView<const
   const Level& level = patch.level();
   const Box mine = box.intersect(patch.cells());
   if (mine.empty()) return;
+  std::vector<VelocityAtEnd> ends;  // at the ends of the grid along each axis
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1}) ends.emplace_back(level, d, side, material);
   forEach<D>(mine, [&](const Index<D>& cell) {
     flow.mass.add(density[cell] * level.cellVolume());
     for (int d = 0; d < D; ++d)
@@ -187,8 +187,8 @@ void addBoxFlow(const Patch& patch, const Box& box, int material, CellView<const
         Index<D> behind = cell;
         behind[d] += side == 0 ? -1 : 1;
         const bool isEnd = !density.box().contains(behind);
-        const double v = isEnd ? velocityAtEnd<D>(level, d, side, material, velocity[cell])
-                               : 0.5 * (velocity[cell][d] + velocity[behind][d]);
+        const double v =
+            isEnd ? ends[2 * d + side](velocity[cell][d]) : 0.5 * (velocity[cell][d] + velocity[behind][d]);
         const bool isFromInside = isEnd || (side == 0 ? v <= 0 : v > 0);
         const double rho = density[isFromInside ? cell : behind];
         const std::size_t place = 2 * level.axis(d) + side;

@@ -12,7 +12,6 @@
 namespace tushar::analysis {
 
 using grid::Level;
-using output::Snapshot;
 
 /// A tag `<line name=>` or `<plane name=>`.
 struct Extent {

@@ -11,10 +11,7 @@
 namespace tushar::analysis {
 
 using input::Element;
-using output::Snapshot;
-using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::SaveRequest;
 
 namespace {
 
@@ -161,15 +158,16 @@ template <int D>
 void addOutflow(const Patch& patch, const std::vector<MeasuredSide>& sides, int material, const OutflowViews<D>& gas,
                 Sum& outflow) {
   const Level& level = patch.level();
-  for (const MeasuredSide& of : sides)
+  for (const MeasuredSide& of : sides) {
+    const VelocityAtEnd velocity(level, of.axis, of.side, material);
     forEach<D>(of.cells.intersect(patch.cells()), [&](const Index<D>& cell) {
       Index<D> beyond = cell;
       beyond[of.axis] += of.side == 0 ? -1 : 1;
-      const double v = velocityAtEnd<D>(level, of.axis, of.side, material, gas.velocity[cell],
-                                        level.partAt<D>(of.axis, of.side, beyond));
+      const double v = velocity(gas.velocity[cell][of.axis], level.partAt<D>(of.axis, of.side, beyond));
       const double carried = gas.totalEnergy[cell] + (gas.free ? (*gas.free)[cell] : 1.0) * gas.pressure[cell];
       outflow.add((of.side == 0 ? -v : v) * carried * level.cellVolume() / level.spacing(of.axis));
     });
+  }
 }
 
 template void addOutflow<1>(const Patch&, const std::vector<MeasuredSide>&, int, const OutflowViews<1>&, Sum&);

@@ -20,7 +20,23 @@ bool computesInCells(const TaskList& list, std::string_view label) {
   return false;
 }
 
+/// The velocity that the scene gives along an axis on a part of a side of the grid [m/s]: 0 at a symmetry plane; none
+/// if the scene gives none, or a formula.
+std::optional<double> velocityGiven(const Level& level, int axis, int side, int material, int part) {
+  constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
+  if (level.isSymmetry(axis, side, material, part)) return 0;
+  const auto given = level.boundary(axis, side, velocity, material, part);
+  const bool isNumber = given && given->isDirichlet() && !given->formula;
+  return isNumber ? std::optional(given->value[level.axis(axis)]) : std::nullopt;
+}
+
 }  // namespace
+
+VelocityAtEnd::VelocityAtEnd(const Level& level, int axis, int side, int material)
+    : rest_(velocityGiven(level, axis, side, material, grid::restOfSide)) {
+  for (int part = 0; part < std::ssize(level.parts(axis, side)); ++part)
+    parts_.push_back(velocityGiven(level, axis, side, material, part));
+}
 
 std::optional<bool> isDerived(const Component& component, std::string_view label) {
   TaskList state, derived;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/core.hpp"
 #include "core/input/document.hpp"
@@ -19,17 +20,21 @@ std::optional<bool> isDerived(const simulation::Component& component, std::strin
 /// Whether diagnostics compute a total of this name.
 bool computesTotal(const simulation::Component& component, std::string_view label);
 
-/// The velocity along an axis at a side of a cell that is also a side of the grid: the velocity given there or, if none
-/// is given, that of the gas inside [m/s].
-template <int D>
-double velocityAtEnd(const Level& level, int axis, int side, int material, const Vec<D>& inside,
-                     int part = grid::restOfSide) {
-  constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
-  if (level.isSymmetry(axis, side, material, part)) return 0;
-  const auto given = level.boundary(axis, side, velocity, material, part);
-  const bool isNumber = given && given->isDirichlet() && !given->formula;
-  return isNumber ? given->value[level.axis(axis)] : inside[axis];
-}
+/// The velocity along an axis at a side of the grid [m/s], for kernels that visit the cells there: the conditions of
+/// the side and of its parts are looked up once.
+class VelocityAtEnd {
+ public:
+  VelocityAtEnd(const Level& level, int axis, int side, int material);
+
+  /// The velocity given on a part of the side or, if none is given, that of the gas `inside`.
+  double operator()(double inside, int part = grid::restOfSide) const {
+    return (part == grid::restOfSide ? rest_ : parts_[part]).value_or(inside);
+  }
+
+ private:
+  std::optional<double> rest_;
+  std::vector<std::optional<double>> parts_;
+};
 
 /// The number of bodies, which is also the index of the gas among the materials of the scene, since bodies come first.
 int bodiesOf(const simulation::Component& component);

@@ -8,7 +8,6 @@
 
 namespace tushar::analysis {
 
-using output::Snapshot;
 using simulation::AnalysisKind;
 
 namespace {

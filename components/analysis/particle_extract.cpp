@@ -17,9 +17,7 @@ using input::Diagnostics;
 using input::Element;
 using input::Schema;
 using output::Array;
-using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::SaveRequest;
 
 namespace {
 

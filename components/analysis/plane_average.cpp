@@ -12,7 +12,6 @@
 namespace tushar::analysis {
 
 using grid::Level;
-using output::Snapshot;
 using simulation::AnalysisKind;
 
 namespace {

@@ -16,7 +16,6 @@ using input::Diagnostics;
 using input::Element;
 using input::Schema;
 using simulation::SampledVariable;
-using simulation::SaveRequest;
 
 namespace {
 

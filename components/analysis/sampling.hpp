@@ -12,6 +12,10 @@
 
 namespace tushar::analysis {
 
+using output::Snapshot;
+using simulation::Analysis;
+using simulation::SaveRequest;
+
 /// How values are weighted in a mean.
 enum class Weighting { none, cells, weight };
 

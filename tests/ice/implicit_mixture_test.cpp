@@ -11,19 +11,13 @@ namespace {
 
 using test::changedScene;
 using test::driftOf;
+using test::errorOf;
 using test::problemOf;
 using Overrides = std::vector<std::string>;
 
 const std::string slow = "ups/ice/slow_gases.ups";
 
 Overrides cells(int x, int y) { return {fmt::format("Grid/Level/Box/resolution=[{},{},1]", x, y)}; }
-
-/// Returns the L1 error of a measured variable.
-double errorOf(const report::Report& report, const std::string& quantity) {
-  for (const report::ErrorNorms& error : report.errors)
-    if (error.field == quantity) return error.norms.at("L1");
-  throw std::logic_error("nothing measured the " + quantity);
-}
 
 /// Returns an explicit scene with implicit steps, which sound does not limit, in place of its own.
 std::string implicitly(const std::string& scene) {

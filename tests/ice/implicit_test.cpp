@@ -9,6 +9,7 @@ namespace {
 
 using test::changedScene;
 using test::driftOf;
+using test::errorOf;
 using test::problemOf;
 using Overrides = std::vector<std::string>;
 
@@ -16,13 +17,6 @@ const std::string sod = "ups/ice/sod_implicit.ups", vortex = "ups/ice/vortex_slo
                   gresho = "ups/ice/gresho_slow.ups", bubble = "ups/ice/hot_bubble.ups";
 
 Overrides cells(int x, int y) { return {fmt::format("Grid/Level/Box/resolution=[{},{},1]", x, y)}; }
-
-/// Returns the L1 error of a measured variable.
-double errorOf(const report::Report& report, const std::string& quantity) {
-  for (const report::ErrorNorms& error : report.errors)
-    if (error.field == quantity) return error.norms.at("L1");
-  throw std::logic_error("nothing measured the " + quantity);
-}
 
 const std::string control = "<knob_for_speedSound>0</knob_for_speedSound>";
 

@@ -12,26 +12,33 @@ namespace tushar::output {
 
 namespace {
 
-/// A file with numbers, a text and an array of its own.
-void write(const std::filesystem::path& file, int step, double time, const std::string& text,
-           const std::vector<double>& values) {
+/// What a file contains: numbers, a text and an array of its own.
+struct Contents {
+  int step;
+  double time;
+  std::string text;
+  std::vector<double> values;
+
+  double same() const { return step < 100 ? 1.5 : 2.5; }
+};
+
+void write(const std::filesystem::path& file, const Contents& of) {
   const auto header = [&](Hdf5File& out) {
-    out.attribute("/", "step", step);
-    out.attribute("/", "time", time);
-    out.text("/notes/text", text);
-    out.dataset("/notes/same", {"same", "1", "", 1, std::vector<double>{step < 100 ? 1.5 : 2.5}}, {1});
+    out.attribute("/", "step", of.step);
+    out.attribute("/", "time", of.time);
+    out.text("/notes/text", of.text);
+    out.dataset("/notes/same", {"same", "1", "", 1, std::vector<double>{of.same()}}, {1});
   };
-  writeTogether({}, file, {}, header, {{"/a", {"a", "m", "an array", 1, values}, {values.size()}}});
+  writeTogether({}, file, {}, header, {{"/a", {"a", "m", "an array", 1, of.values}, {of.values.size()}}});
 }
 
-void expectHeld(const std::filesystem::path& file, int step, double time, const std::string& text,
-                const std::vector<double>& values) {
+void expectHeld(const std::filesystem::path& file, const Contents& of) {
   const Hdf5Input in(file);
-  EXPECT_EQ(in.integer("/", "step"), step);
-  EXPECT_EQ(in.real("/", "time"), time);
-  EXPECT_EQ(in.text("/notes/text"), text);
-  EXPECT_EQ(std::get<std::vector<double>>(in.dataset("/notes/same")).front(), step < 100 ? 1.5 : 2.5);
-  EXPECT_EQ(std::get<std::vector<double>>(in.dataset("/a")), values);
+  EXPECT_EQ(in.integer("/", "step"), of.step);
+  EXPECT_EQ(in.real("/", "time"), of.time);
+  EXPECT_EQ(in.text("/notes/text"), of.text);
+  EXPECT_EQ(std::get<std::vector<double>>(in.dataset("/notes/same")).front(), of.same());
+  EXPECT_EQ(std::get<std::vector<double>>(in.dataset("/a")), of.values);
   EXPECT_EQ(in.text("/a", "unit"), "m");
 }
 
@@ -40,20 +47,14 @@ void expectHeld(const std::filesystem::path& file, int step, double time, const 
 TEST(HeadImage, GivesEachFileItsOwnNumbersAndTexts) {
   const TemporaryFolder here;
   const std::string text = "a text of thirty-one characters", other = "another one with as many of them";
-  write(here / "a.h5", 1, 0.25, text, {1, 2, 3});
-  write(here / "b.h5", 2, -1e300, other.substr(0, text.size()), {4, 5, 6});
-  write(here / "shape.h5", 3, 0.5, text, {7});
-  write(here / "text.h5", 4, 0.5, "short", {8, 9, 10});
-  write(here / "none.h5", 5, 0.5, "", {});
-  write(here / "same.h5", 100, 0.5, text, {1, 2, 3});
-  write(here / "again.h5", 1, 0.25, text, {1, 2, 3});
+  const std::vector<std::pair<std::string, Contents>> files{
+      {"a.h5", {1, 0.25, text, {1, 2, 3}}},    {"b.h5", {2, -1e300, other.substr(0, text.size()), {4, 5, 6}}},
+      {"shape.h5", {3, 0.5, text, {7}}},       {"text.h5", {4, 0.5, "short", {8, 9, 10}}},
+      {"none.h5", {5, 0.5, "", {}}},           {"same.h5", {100, 0.5, text, {1, 2, 3}}},
+      {"again.h5", {1, 0.25, text, {1, 2, 3}}}};
+  for (const auto& [file, contents] : files) write(here / file, contents);
 
-  expectHeld(here / "a.h5", 1, 0.25, text, {1, 2, 3});
-  expectHeld(here / "b.h5", 2, -1e300, other.substr(0, text.size()), {4, 5, 6});
-  expectHeld(here / "shape.h5", 3, 0.5, text, {7});
-  expectHeld(here / "text.h5", 4, 0.5, "short", {8, 9, 10});
-  expectHeld(here / "none.h5", 5, 0.5, "", {});
-  expectHeld(here / "same.h5", 100, 0.5, text, {1, 2, 3});
+  for (const auto& [file, contents] : files) expectHeld(here / file, contents);
   EXPECT_EQ(read(here / "again.h5"), read(here / "a.h5"));
 }
 

@@ -53,4 +53,11 @@ inline double driftOf(const report::Report& report, const std::string& name) {
   throw std::logic_error("the report has no drift of " + name);
 }
 
+/// Returns the L1 error of a measured variable.
+inline double errorOf(const report::Report& report, const std::string& quantity) {
+  for (const report::ErrorNorms& error : report.errors)
+    if (error.field == quantity) return error.norms.at("L1");
+  throw std::logic_error("nothing measured the " + quantity);
+}
+
 }  // namespace tushar::test
