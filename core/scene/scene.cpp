@@ -88,9 +88,9 @@ const ComponentKind* readComponentKind(const Element& root, const Catalogue& cat
     std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
   const ComponentKind* kind = catalogue.component(type);
   if (!kind)
-    diagnostics.error(tag->whereOf("type"), tag->path(),
-                      "type: " + input::choiceProblem(read.type, catalogue.componentNames()) +
-                          "; --load FILE loads one of your own");
+    diagnostics.error(
+        tag->whereOf("type"), tag->path(),
+        "type: " + input::choiceProblem(read.type, catalogue.componentNames()) + "; --load FILE loads one of your own");
   return kind;
 }
 
