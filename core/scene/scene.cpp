@@ -326,8 +326,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (const auto grid = section(root, "Grid", true, diagnostics))
     domain = readGridFor(kind, *grid, amr, workers, diagnostics);
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
-  MakeComponent makeComponent;
-  if (kind) makeComponent = kind->read(root, diagnostics);
+  const MakeComponent makeComponent = kind ? kind->read(root, diagnostics) : MakeComponent();
   const std::vector<ReadModule> modules = readModules(root, catalogue, kind != nullptr, diagnostics);
   checkIntervals(problem.time, modules, diagnostics);
   const bool modulesAreRight = std::all_of(modules.begin(), modules.end(), [](const auto& m) { return m.make; });

@@ -338,10 +338,8 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   throwIfAny(problemsOf(analyses));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
-  levels_ = grid.levels();
-  smaller_steps_ = smallerSteps.has_value();
   if (grid.levels() > 1) refuseSavedNodes(analyses);
-  if (grid.levels() > 1 && regrid.refluxes) addRefluxing(smallerSteps.has_value());
+  prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value());
   const Lists& lists = lists_;
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
   totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));

@@ -70,6 +70,8 @@ class Phases {
   struct Lists {
     tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics, errorEstimate, refine, reflux;
   };
+  /// Stores the number of levels and how they step, and adds the tasks that several levels need.
+  void prepareLevels(int levels, bool refluxes, bool bySmallerSteps);
   /// Adds the tasks that keep totals constant across levels (refluxing).
   void addRefluxing(bool bySmallerSteps);
   void validateAll() const;

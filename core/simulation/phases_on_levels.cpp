@@ -23,6 +23,12 @@ void Phases::refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& anal
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
+void Phases::prepareLevels(int levels, bool refluxes, bool bySmallerSteps) {
+  levels_ = levels;
+  smaller_steps_ = bySmallerSteps;
+  if (levels > 1 && refluxes) addRefluxing(bySmallerSteps);
+}
+
 void Phases::addRefluxing(bool bySmallerSteps) {
   if (!bySmallerSteps) {
     lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
