@@ -102,7 +102,8 @@ class Missing(unittest.TestCase):
         self.builder("exit 3")
         done = self.run_scene("--set", "SimulationComponent/@type=hest")
         self.assertEqual(done.returncode, 3)
-        self.assertRegex(done.stderr, r"found 'hest', expected 'burgers', .* \(did you mean 'heat'\?\); --load .* \[T107\]\n\Z")
+        self.assertRegex(done.stderr,
+                         r"found 'hest', expected 'burgers', .* \(did you mean 'heat'\?\); --load .* \[T107\]\n\Z")
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertFalse((self.here / "calls").exists())
 
