@@ -109,6 +109,7 @@ class Refiner {
     for (int d = 0; d < coarsest_.dimension(); ++d) checkCount(coarsest_.axis(d));
     noteWhatGrows();
     noteOverlaps();
+    noteUnnested();
   }
 
  private:
@@ -300,13 +301,37 @@ class Refiner {
   }
 
   bool overlap(const grid::FineRegion& a, const grid::FineRegion& b) const {
-    if (a.level != b.level) return false;
+    return a.level == b.level && commonCells(a, b) > 0;
+  }
+
+  /// The volume that two regions share, in cells of the first Level.
+  double commonCells(const grid::FineRegion& a, const grid::FineRegion& b) const {
+    double cells = 1;
     for (int d = 0; d < coarsest_.dimension(); ++d) {
       const int axis = coarsest_.axis(d);
-      const double slack = 1e-6 * coarsest_.cellWidth(axis);
-      if (std::min(a.upper[axis], b.upper[axis]) - std::max(a.lower[axis], b.lower[axis]) <= slack) return false;
+      const double width = std::min(a.upper[axis], b.upper[axis]) - std::max(a.lower[axis], b.lower[axis]);
+      const double along = width / coarsest_.cellWidth(axis);
+      if (along <= 1e-6) return 0;
+      cells *= along;
     }
-    return true;
+    return cells;
+  }
+
+  /// Notes boxes that are not in those of the next coarser Level: the grid nests all levels, and refines more.
+  void noteUnnested() {
+    const std::vector<grid::FineRegion>& regions = refinement_.regions;
+    for (std::size_t b = 0; b < boxes_.size(); ++b) {
+      int coarser = 0;
+      for (const grid::FineRegion& other : regions)
+        if (other.level < regions[b].level) coarser = std::max(coarser, other.level);
+      double inside = 0;
+      for (const grid::FineRegion& other : regions)
+        if (other.level == coarser) inside += commonCells(other, regions[b]);
+      if (coarser > 0 && inside < (1 - 1e-6) * commonCells(regions[b], regions[b]))
+        diagnostics_.note(boxes_[b],
+                          "is not inside the Boxes of the previous Level; the cells around it are refined as well, so "
+                          "that levels are nested");
+    }
   }
 
   std::vector<Element> elements_;

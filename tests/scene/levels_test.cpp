@@ -50,6 +50,18 @@ TEST(Levels, GrowToWholeBlocksWhichANoteSays) {
   EXPECT_EQ(found.notes, (Strings{"Grid/Level/Box: is enlarged to whole blocks: from [0.5,0.25,0] to [1.25,0.5,0] m"}));
 }
 
+TEST(Levels, ThatAreNotNestedGetANote) {
+  const auto notes = [](const std::string& finest) {
+    return read(square + level(box("0,0,0", "1,.5,0", "64,32,1")) + level(finest)).notes;
+  };
+  const Strings unnested{
+      "Grid/Level/Box: is not inside the Boxes of the previous Level; the cells around it are refined as well, so that "
+      "levels are nested"};
+  EXPECT_EQ(notes(box("0,0,0", "1,.5,0", "128,64,1")), Strings{});
+  EXPECT_EQ(notes(box("1,0,0", "1.5,.5,0", "64,64,1")), unnested) << "beside it";
+  EXPECT_EQ(notes(box(".5,0,0", "1.5,.5,0", "128,64,1")), unnested) << "half in it";
+}
+
 TEST(Levels, WithBoxesThatOverlapGetANote) {
   const auto notes = [](const std::string& second) {
     return read(square + level(box("0,0,0", "1,.5,0", "64,32,1") + second)).notes;
