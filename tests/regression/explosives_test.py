@@ -51,6 +51,23 @@ class Contacts(RefusedSceneTest):
             self.assertLess(abs(drift[name]), 1e-13, name)
 
 
+class Heat(RefusedSceneTest):
+    def test_is_given_by_mass(self):
+        """Each gas gets its rate [W/kg]; the gases of a cell share what they get, since they have one temperature."""
+        names = ("TotalMass-explosive", "TotalMass-air", "TotalEnergy")
+        tags = ("<add_heat_matls>[0,1]</add_heat_matls><add_heat_coeff>[2e7,5e8]</add_heat_coeff>"
+                "<add_heat_t_start>0</add_heat_t_start><add_heat_t_final>1</add_heat_t_final>")
+        text = changed(DRIFT.read_text(), ('<ICE><advection type="SecondOrder"/>',
+                                           f'<ICE><advection type="SecondOrder"/><ADD_HEAT>{tags}</ADD_HEAT>'),
+                       ('<save label="TotalIntEng"/>', "".join(f'<save label="{name}"/>' for name in names)))
+        found = globals_of(self.scene(text), *names,
+                           sets=("Time/maxTime=2e-4", "Grid/Level/Box/resolution=[16,16,1]"))
+        time, energy = found["TotalEnergy"][-1][0], [row[1] for row in found["TotalEnergy"]]
+        gained = time * (2e7 * found["TotalMass-explosive"][0][1] + 5e8 * found["TotalMass-air"][0][1])
+        self.assertGreater(gained, .005 * energy[0])
+        self.assertAlmostEqual((energy[-1] - energy[0]) / gained, 1, delta=1e-10)
+
+
 class Impact(unittest.TestCase):
     def mean_error(self, cells):
         report = run(IMPACT, f"Grid/Level/Box/resolution=[{cells},1,1]").report

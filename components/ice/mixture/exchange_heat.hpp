@@ -178,16 +178,21 @@ void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients
                   CellView<double> totalEnergy, const std::vector<WarmGas>& held) {
   const auto count = static_cast<Eigen::Index>(gases.size());
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double energy = euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
-    const bool areBlended = gases.front().blend != nullptr;  // then they have one temperature already
-    const double pressure = areBlended ? 1 : euler::mixedAt(gases, held, cell).pressure(density[cell], energy);
     WarmThings<euler::kMostGases> things(count);
+    if (gases.front().blend) {  // they have one temperature already
+      for (Eigen::Index k = 0; k < count; ++k) things.mass[k] = held[k].mass[cell];
+      giveHeat(things, heating, time, dt, 0);
+      totalEnergy[cell] += things.given.sum();
+      return;
+    }
+    const double energy = euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
+    const double pressure = euler::mixedAt(gases, held, cell).pressure(density[cell], energy);
     for (Eigen::Index k = 0; k < count; ++k)
       if (held[k].mass[cell] > leastPartOfMass * density[cell])
         things.setGas(k, gases[k].gas, held[k].mass[cell], held[k].share[cell], pressure);
     giveHeat(things, heating, time, dt, 0);
     totalEnergy[cell] += things.given.sum();
-    if (areBlended || things.present() < 2) return;
+    if (things.present() < 2) return;
     changeShares(changesByHeat(things, coefficients, dt), 0, 1,
                  [&](Eigen::Index k) -> double& { return held[k].share[cell]; });
   });

@@ -42,10 +42,17 @@ void reactGas(const Patch& patch, const Gases& gases, const Reaction& one, doubl
               const std::vector<euler::ChangedGas>& held) {
   const euler::ChangedGas &from = held[one.from], &to = held[one.to];
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const Reactants there{from.mass[cell], to.mass[cell], from.share[cell]};
+    Reactants there{from.mass[cell], to.mass[cell], from.share[cell]};
     if (!(there.from > 0)) return;
     const double energy = euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
-    const double pressure = euler::lawAt(gases, held, energy, cell).pressure(density[cell], energy);
+    double pressure = 0;
+    if (gases.front().blend) {  // their volume fractions are found after all sources
+      const euler::Blend blend = gases.front().blend->at(euler::massesIn(held, cell).data(), energy);
+      there.share = blend.shares[one.from];
+      pressure = blend.pressure;
+    } else {
+      pressure = euler::mixedAt(gases, held, cell).pressure(density[cell], energy);
+    }
     const double part = there.converted(one.burn, pressure, dt), burned = part * there.from;
     if (!(part > 0)) return;
     from.mass[cell] = part < 1 ? there.from - burned : 0;

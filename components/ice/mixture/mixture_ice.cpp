@@ -79,20 +79,18 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                         withoutMaterial(all<euler::OldState<D>>(ghost)), all<euler::OldGas>(ghost), startTime(),
                         requiresOld(delT), withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>(),
                         withoutMaterial(all<euler::RimFluxes<D>>(false)), all<euler::GasRims>());
-  if (areBlended())
-    scheduleClosing(tasks);
-  else if (hasLevels_)
+  if (hasLevels_ && !areBlended())
     tasks.acrossMaterials("ice::closeShares", euler::closeShares<D>, gases_, modifies(euler::c::gasShare));
   scheduleSources(tasks);
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
   scheduleHeat(tasks);
-  const bool haveSources = !transfers_.empty() || !burning_.empty() || !reactions_.empty() || diffusion_.acts();
-  if (areBlended() && (haveSources || heating_.acts())) scheduleClosing(tasks);
+  if (areBlended()) scheduleClosing(tasks);
 }
 
-/// Adds the task that finds the volume fractions of gases with laws of their own.
+/// Adds the task that finds the volume fractions of gases with laws of their own. Until then, those of a step are
+/// undefined.
 template <int D>
 void MixtureIce<D>::scheduleClosing(TaskList& tasks) const {
   tasks.acrossMaterials(
@@ -103,6 +101,7 @@ void MixtureIce<D>::scheduleClosing(TaskList& tasks) const {
 
 template <int D>
 void MixtureIce<D>::scheduleSources(TaskList& tasks) const {
+  if (areBlended() && !burning_.empty()) scheduleClosing(tasks);  // a programmed burn reads volume fractions
   for (const Transfer& one : transfers_)
     tasks.acrossMaterials("ice::transferMass", transferMass<D>, gases_, with(one), startTime(), requiresOld(delT),
                           all<euler::ChangedGas>());
@@ -127,7 +126,7 @@ void MixtureIce<D>::scheduleSources(TaskList& tasks) const {
 
 template <int D>
 void MixtureIce<D>::scheduleHeat(TaskList& tasks) const {
-  if (heat_.act() || heating_.acts())
+  if ((heat_.act() && !areBlended()) || heating_.acts())
     tasks.acrossMaterials("ice::exchangeHeat", exchangeHeat<D>, gases_, with(heat_), with(heating_), startTime(),
                           requiresOld(delT), withoutMaterial(requiresNew(euler::c::density)),
                           withoutMaterial(requiresNew(euler::c::momentum<D>)),

@@ -234,7 +234,8 @@ void takeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material
                       const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
                       CellView<const double> pressure, const WallPressures<D>& walls) {
   fillWallPressure<D>(patch, settings, cells, records, walls,
-                      [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
+                      [&](const euler::Gas&, const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity,
+                          int d, int side) {
                         const double closing = std::max(0.0, ofCell.closing(velocity, d, side));
                         const double rho = cells.held.density[cell] / cells.free[cell];
                         return pressure[cell] + 0.5 * (settings.gas.gas.gamma + 1) * rho * closing * closing;

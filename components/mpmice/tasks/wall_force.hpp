@@ -70,7 +70,8 @@ struct Blowing {
   }
 };
 
-/// Computes the pressure on all walls: `pressureOn(cell, walls of the cell, velocity of the wall, axis, side)`.
+/// Computes the pressure on all walls: `pressureOn(law of the gas, cell, walls of the cell, velocity of the wall, axis,
+/// side)`.
 template <int D, class PressureOn>
 void fillWallPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                       const typename BodiesAtNodes<D>::Records& records, const WallPressures<D>& walls,
@@ -88,7 +89,7 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
     for (int d = 0; d < D; ++d) {
       const auto on = [&](const Index<D>& face, int side) {
         if (!ofCell.hasWall(d, side)) return 0.0;
-        return pressureOn(cell, ofCell, bodies.velocityAt(face, d, mpm::solid::lane::velocity), d, side);
+        return pressureOn(law, cell, ofCell, bodies.velocityAt(face, d, mpm::solid::lane::velocity), d, side);
       };
       walls.below[cell][d] = on(cell, 0);
       walls.above[cell][d] = on(cell + Index<D>::unit(d), 1);
@@ -102,8 +103,8 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
                          const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
                          const Blowing<D>& blowing, const WallPressures<D>& walls) {
   fillWallPressure<D>(patch, settings, cells, records, walls,
-                      [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
-                        const euler::Gas law = lawAt<D>(settings, cells.held, cells.free[cell], cell);
+                      [&](const euler::Gas& law, const Index<D>& cell, const CellWalls<D>& ofCell,
+                          const Vec<D>& velocity, int d, int side) {
                         return ofCell.pressure(law, velocity, d, side, blowing.speed(cell, d, side)) +
                                blowing.recoil(cell, d, side);
                       });
