@@ -79,6 +79,15 @@ class UintahsWords(unittest.TestCase):
                 result = run(path, *FEW)
                 self.assertEqual(result.code, 0, result.err)
 
+    def test_short_domains_change_a_run_alike_on_all_layouts(self):
+        scene = ("ups/solid/cantilever.ups", "Time/max_Timesteps=20")
+        found = [run(*scene, "MPM/cpdi_lcrit=.4", options=("--quiet", *layout)).report["fingerprint"]
+                 for layout in ((), ("--layout", "3x2x1", "--nthreads", "2"))]
+        self.assertEqual(*found)
+        as_before = [run(*scene, *short).report["fingerprint"] for short in ((), ("MPM/cpdi_lcrit=1.8",))]
+        self.assertEqual(*as_before)
+        self.assertNotEqual(found[0], as_before[0])
+
     def test_a_variable_that_nobody_computes_is_noted(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "scene.ups")

@@ -38,6 +38,8 @@ struct Method {
   bool keepsSizes = false;         ///< whether each particle stores its size
   /// Whether each particle stores its size as edges of any direction, for shape functions that follow them.
   bool keepsDomains = false;
+  /// cpdi_lcrit: largest distance of the corners of convected particle domains from the centre, in cells; 0: no limit
+  double longestDiagonal = 0;
   double meanWidth = 0;         ///< mean cell width over x, y, z [m]: the length in the artificial viscosity
   bool viscosityHeats = false;  ///< whether artificial viscosity heats particles (artificial_viscosity_heating)
   /// Number of cells that the largest radius of capability::Nonlocal spans; 0 if no model averages.

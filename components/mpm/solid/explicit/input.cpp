@@ -42,6 +42,7 @@ struct MpmSection {
   double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
   double minimumParticleMass = 0, minimumMassForAcceleration = 0;
   std::optional<double> maximumParticleVelocity;
+  std::optional<double> longestDiagonal;
   bool removesLost = true;
   int minimumSubcycles = 1;
   bool momentumForm = false, prescribesDeformation = false, insertsParticles = false;
@@ -70,6 +71,11 @@ void addLimits(Schema<MpmSection>& mpm) {
              "nodes lighter than this are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
                 "particles faster than this are slowed down to 9/10 of this speed", input::positive())
+      .optional("cpdi_lcrit", &MpmSection::longestDiagonal, "cells",
+                "with the interpolator cpdi: domains of particles are shrunk so that no corner is farther from the "
+                "centre; no domain extends farther than a cell along an axis in any case, so that 3^(1/2) and more "
+                "do nothing",
+                input::positive())
       .choice("lost_particles", &MpmSection::removesLost, {{"remove", true}, {"stop", false}}, true,
               "what happens when a step turns a particle inside out (det F <= 0), deforms it so much that nodes next "
               "to it must have moved farther than a cell, or throws it through a symmetry plane: it "
@@ -155,6 +161,11 @@ void checkDissipation(const MpmSection& read, const Element& element, Diagnostic
     diagnostics.error(element.child("artificial_viscosity_heating").value(), "needs <artificial_viscosity> true");
 }
 
+void checkDomains(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
+  if (read.longestDiagonal && read.axisymmetric)
+    diagnostics.note(element.child("cpdi_lcrit").value(), "does nothing with axisymmetric, as in Uintah");
+}
+
 void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const bool isSpline = read.interpolator == Interpolator::quadratic || read.interpolator == Interpolator::cubic;
   if (read.axisymmetric && isSpline)
@@ -194,29 +205,11 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "delT_increase_factor",
                                   "temperature_solve"};
 
-/// Refuses a small `cpdi_lcrit`. Uintah shrinks domains with a corner farther from the centre than this number of
-/// cells, except in axisymmetric scenes. In Tushar, no domain extends farther than a cell from its centre along an
-/// axis, so that its corners are at most 3^(1/2) cells away.
-void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& diagnostics) {
-  const auto given = element.child("cpdi_lcrit");
-  if (!given || read.interpolator != Interpolator::cpdi) return;
-  const auto longest = input::parse<double>(given->text()).value;
-  if (!longest) return diagnostics.error(*given, "'" + given->text() + "' is not a number");
-  if (read.axisymmetric) return diagnostics.note(*given, "does nothing with axisymmetric, as in Uintah");
-  if (*longest < std::numbers::sqrt3)
-    diagnostics.error(*given,
-                      "less than 3^(1/2) is not available; a cpdi domain that extends farther than a cell from its "
-                      "centre along an axis is shrunk to one cell");
-}
-
 /// Declares tags of Uintah for features that this method lacks or always has.
 void addForeign(Schema<MpmSection>& mpm) {
   addForeignTags(mpm);
   for (const char* tag : implicitOnly) mpm.ignored(tag, "belongs to the implicit method");
   requireSwitch(mpm, "do_grid_reset", "the grid is reset after each step");
-  mpm.custom("cpdi_lcrit", refuseShortDomains, {"cpdi_lcrit"},
-             "at least 3^(1/2): no cpdi domain extends farther than a cell from its centre along an axis")
-      .forms({input::typeForm({"cpdi_lcrit"}, std::string(input::typeName<double>))});
 }
 
 const Schema<MpmSection>& mpmSchema() {
@@ -232,7 +225,7 @@ const Schema<MpmSection>& mpmSchema() {
     addUpdates(mpm);
     addPrescribedMotion(mpm);
     addSurroundings(mpm);
-    mpm.check(checkDissipation).check(checkUpdates);
+    mpm.check(checkDissipation).check(checkDomains).check(checkUpdates);
     addForeign(mpm);
     return mpm;
   }();
@@ -252,6 +245,8 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   if (read.artificialViscosity) method.viscosity = {read.linearViscosity, read.quadraticViscosity};
   method.minimumMassForAcceleration = read.minimumMassForAcceleration;
   method.maximumParticleVelocity = read.maximumParticleVelocity;
+  if (const double longest = read.longestDiagonal.value_or(2); longest < std::numbers::sqrt3 && !read.axisymmetric)
+    method.longestDiagonal = longest;
   method.removesLost = read.removesLost;
   method.minimumSubcyclesForF = read.minimumSubcycles;
   method.conductsHeat = read.conductsHeat;

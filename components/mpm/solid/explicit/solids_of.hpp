@@ -75,7 +75,7 @@ class SolidsOf : public Solids {
   bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }
   KeptSizes keepsSizes() const {
     const bool domains = shapes_.deform && problem_.method.keepsDomains;
-    return {shapes_.haveSizes && problem_.method.keepsSizes && !domains, domains};
+    return {shapes_.haveSizes && problem_.method.keepsSizes && !domains, domains, problem_.method.longestDiagonal};
   }
   /// The sizes of particles as boxes, whether or not the shape functions use them.
   KeptSizes boxSizes() const {

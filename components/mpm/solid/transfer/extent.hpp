@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "components/mpm/shapes/tensor_shape.hpp"
@@ -33,8 +34,10 @@ T* valuesOf(const OptionalView<T>& view) {
 /// Whether the particles of a scene have individual sizes, and whether these are parallelepipeds.
 struct KeptSizes {
   bool each = false, domains = false;
+  double longestDiagonal = 0;  ///< limit on half the diagonals of deformed sizes, in cells; 0: none
 
-  constexpr KeptSizes(bool keepsEach = false, bool keepsDomains = false) : each(keepsEach), domains(keepsDomains) {}
+  constexpr KeptSizes(bool keepsEach = false, bool keepsDomains = false, double longest = 0)
+      : each(keepsEach), domains(keepsDomains), longestDiagonal(longest) {}
 };
 
 /// The initial sizes of particles, in cells; without either view, all particles have the same size.
@@ -42,14 +45,15 @@ template <int D>
 struct Sizes {
   OptionalView<const Vec<D>> each;
   OptionalView<const Matrix3> domain;  ///< matrices whose columns are the edges
+  double longestDiagonal = 0;          ///< limit on half the diagonals of deformed sizes, in cells; 0: none
 
   Sizes(std::nullopt_t = std::nullopt) {}
   Sizes(ParticleView<const Vec<D>> eachSize) : each(std::move(eachSize)) {}
-  Sizes(OptionalView<const Vec<D>> eachSize, OptionalView<const Matrix3> eachDomain = {})
-      : each(std::move(eachSize)), domain(std::move(eachDomain)) {}
+  Sizes(OptionalView<const Vec<D>> eachSize, OptionalView<const Matrix3> eachDomain = {}, double longest = 0)
+      : each(std::move(eachSize)), domain(std::move(eachDomain)), longestDiagonal(longest) {}
   static Sizes from(auto& take, KeptSizes kept, int ghost = 0) {
     auto size = take(when(kept.each, requiresOld(p::size<D>, ghost)));
-    return {size, take(when(kept.domains, requiresOld(p::domain, ghost)))};
+    return {size, take(when(kept.domains, requiresOld(p::domain, ghost))), kept.longestDiagonal};
   }
 };
 
@@ -82,6 +86,26 @@ template <int D>
     storeColumns(lanes, count, [&](int lane) { return vectors[lane].data(); });
 }
 
+/// Shortens half the diagonals of a parallelepiped with the given half edges, in cells, to at most `longest`, as in
+/// Homel, Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31, and computes its edges from them. `across` is
+/// the square of its half extent along axes that the grid does not use, which counts for the length of a diagonal.
+template <int D>
+void shortenDiagonals(Eigen::Matrix<double, D, D>& halfEdges, double across, double longest) {
+  constexpr int diagonals = 1 << (D - 1);
+  const auto sign = [](int diagonal, int edge) { return edge < D - 1 && ((diagonal >> edge) & 1) ? -1.0 : 1.0; };
+  Eigen::Matrix<double, D, D> shortened = Eigen::Matrix<double, D, D>::Zero();
+  bool isShorter = false;
+  for (int k = 0; k < diagonals; ++k) {
+    Vec<D> diagonal = Vec<D>::Zero();
+    for (int j = 0; j < D; ++j) diagonal += sign(k, j) * halfEdges.col(j);
+    const double length = std::sqrt(diagonal.squaredNorm() + across);
+    if (length > longest) diagonal *= longest / length;
+    isShorter = isShorter || length > longest;
+    for (int j = 0; j < D; ++j) shortened.col(j) += sign(k, j) / diagonals * diagonal;
+  }
+  if (isShorter) halfEdges = shortened;
+}
+
 /// Extents of the particles of a material for shape functions: a common size or individual ones, deformed by F.
 template <class Shape>
 class Extents {
@@ -91,6 +115,8 @@ class Extents {
   Extents(const Level& level, const Vec3& common, const Sizes<D>& sizes, const OptionalView<const Matrix3>& deformation)
       : level_(level),
         common_(level.reduce<D>(common)),
+        whole_(common),
+        longest_(sizes.longestDiagonal),
         each_(valuesOf(sizes.each)),
         domain_(valuesOf(sizes.domain)),
         deformation_(valuesOf(deformation)) {}
@@ -98,13 +124,16 @@ class Extents {
   Extent<D> operator[](int p) const {
     Extent<D> extent;
     if constexpr (Shape::hasSize) extent.size = each_ ? each_[p] : common_;
-    if constexpr (Shape::deforms)
-      if (domain_) return skewed(p, extent.size);
-    if constexpr (Shape::deforms)
-      for (int i = 0; i < D; ++i)
-        for (int j = 0; j < D; ++j)
-          extent.halfEdges(i, j) = 0.5 * deformation_[p](sceneAxis<D>(level_, i), sceneAxis<D>(level_, j)) *
-                                   extent.size[j] * level_.spacing(j) * level_.inverseSpacing(i);
+    if constexpr (Shape::deforms) {
+      if (domain_)
+        extent = skewed(p, extent.size);
+      else
+        for (int i = 0; i < D; ++i)
+          for (int j = 0; j < D; ++j)
+            extent.halfEdges(i, j) = 0.5 * deformation_[p](sceneAxis<D>(level_, i), sceneAxis<D>(level_, j)) *
+                                     extent.size[j] * level_.spacing(j) * level_.inverseSpacing(i);
+      if (longest_ > 0) shortenDiagonals<D>(extent.halfEdges, squareAcross(p), longest_);
+    }
     return extent;
   }
   /// The initial sizes of up to Lanes::count particles starting with `first`, in cells, one per lane.
@@ -131,8 +160,24 @@ class Extents {
     return extent;
   }
 
+  /// The square of half the deformed size of a particle along the axes that the grid does not use, in cells; its
+  /// initial size along these is the common one.
+  double squareAcross(int p) const requires(Shape::deforms) {
+    double square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      bool isUsed = D == 3;
+      for (int d = 0; d < D && !isUsed; ++d) isUsed = level_.axis(d) == axis;
+      if (isUsed) continue;
+      const double half = 0.5 * deformation_[p](axis, axis) * whole_[axis];
+      square += half * half;
+    }
+    return square;
+  }
+
   const Level& level_;
   Vec<D> common_;
+  Vec3 whole_;
+  double longest_;
   const Vec<D>* each_;
   const Matrix3* domain_;
   const Matrix3* deformation_;
