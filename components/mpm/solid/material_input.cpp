@@ -50,7 +50,6 @@ const std::vector<std::pair<std::string, std::string>> lackingModels{
     {"three_factor_mooney", "comp_mooney_rivlin"},
     {"SVK", "comp_neo_hook"},
     {"murnaghanMPM", "water, which has the same pressure law"},
-    {"p_alpha", "elastic_plastic_hp with a mie_gruneisen equation of state"},
     {"rf_elastic_plastic", "elastic_plastic_hp"},
     {"TransIsoHypoFrictional", "hypo_elastic, without fibres"},
     {"hypo_elastic_fortran", "hypo_elastic"},

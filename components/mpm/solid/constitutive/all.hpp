@@ -14,6 +14,7 @@
 #include "components/mpm/solid/constitutive/mohr_coulomb.hpp"
 #include "components/mpm/solid/constitutive/mw_visco_elastic.hpp"
 #include "components/mpm/solid/constitutive/nonlocal_drucker_prager.hpp"
+#include "components/mpm/solid/constitutive/p_alpha.hpp"
 #include "components/mpm/solid/constitutive/program_burn.hpp"
 #include "components/mpm/solid/constitutive/rigid.hpp"
 #include "components/mpm/solid/constitutive/th_water.hpp"
@@ -44,6 +45,7 @@ using AllModels = std::tuple<Arenisca2,              //
                              MohrCoulomb,            //
                              MwViscoElastic,         //
                              NonlocalDruckerPrager,  //
+                             PAlpha,                 //
                              ProgramBurn,            //
                              Rigid,                  //
                              ThWater,                //

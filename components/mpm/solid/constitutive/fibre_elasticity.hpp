@@ -13,6 +13,11 @@
 
 namespace tushar::mpm::solid {
 
+/// The parts of a ligament that have not failed.
+struct IntactParts {
+  bool matrix = true, fibres = true;
+};
+
 /// Rubber with fibres along a, such as a ligament; Weiss, Maker & Govindjee, Comput. Methods Appl. Mech. Engrg. 135
 /// (1996) 107. With B' = J^(-2/3) F Fᵀ, its invariants I1, I2, and the fibres' stretch l = J^(-1/3) |F a|:
 /// W = W_m(I1, I2) + W_f(l) + K/2 ln² J,
@@ -66,32 +71,34 @@ struct FibreElasticity {
         .custom("direction_of_symm", readFibre, {"direction_of_symm"},
                 "direction of the fibres at the start; its length has no effect")
         .forms({input::typeForm({"direction_of_symm"}, std::string(input::typeName<Vec3>), 1)})
-        .ignored("max_fiber_strain", "only Uintah's failure_option 1 uses it")
-        .ignored("max_matrix_strain", "only Uintah's failure_option 1 uses it")
         .ignored("useModifiedEOS", "only the fluid coupling of Uintah uses it");
-    refuseSwitch(tags, "failure_option", "neither the fibres nor the matrix fail");
   }
 
   /// Computes tau = 2 dev((w1 + I1 w2) B' - w2 B'²) + g dev(a a) + K ln J I [Pa]; w1 and w2 are the derivatives of W_m
-  /// with respect to I1 and I2, g = l dW_f/dl, and a is the direction of the deformed fibre.
-  Matrix3 elasticStress(const Point& at) const {
+  /// with respect to I1 and I2, g = l dW_f/dl, and a is the direction of the deformed fibre. Parts that have failed
+  /// have no stress; the matrix carries the pressure.
+  Matrix3 elasticStress(const Point& at, const IntactParts& intact = {}) const {
     const RubberSlopes w = rubberSlopes(at.first);
+    const Matrix3 fibres = intact.fibres ? Matrix3(fibreForce(at.stretch) * at.fibres) : Matrix3::Zero();
+    if (!intact.matrix) return deviator(fibres);
     const Matrix3 matrix = (w.byFirst + at.first * w.bySecond) * at.b - w.bySecond * at.b * at.b;
-    Matrix3 stress = deviator(2 * matrix + fibreForce(at.stretch) * at.fibres);
+    Matrix3 stress = deviator(2 * matrix + fibres);
     stress.diagonal().array() += bulkModulus * std::log(at.j);
     return stress;
   }
   /// The change of tau when F changes by h F [Pa].
-  Matrix3 elasticChange(const Point& at, const Matrix3& h) const {
+  Matrix3 elasticChange(const Point& at, const Matrix3& h, const IntactParts& intact = {}) const {
     const RubberSlopes w = rubberSlopes(at.first);
-    const double g = fibreForce(at.stretch), slope = fibreSlope(at.stretch);
+    const double g = intact.fibres ? fibreForce(at.stretch) : 0, slope = intact.fibres ? fibreSlope(at.stretch) : 0;
     const Matrix3 hb = h * at.b, db = hb + hb.transpose() - 2.0 / 3.0 * h.trace() * at.b, bdb = at.b * db;
     const Matrix3 matrix = (w.bySecond + w.curvature) * db.trace() * at.b + (w.byFirst + at.first * w.bySecond) * db -
                            w.bySecond * (bdb + bdb.transpose());
     const Matrix3 turned = h * at.fibres, along = turned + turned.transpose();  // d(a aᵀ) = along - 2 (a . h a) a aᵀ
     const double stretching = 0.5 * along.trace();
     const double dg = slope * at.stretch * (stretching - h.trace() / 3);
-    Matrix3 change = deviator(2 * matrix + (dg - 2 * g * stretching) * at.fibres + g * along);
+    const Matrix3 fibres = (dg - 2 * g * stretching) * at.fibres + g * along;
+    if (!intact.matrix) return deviator(fibres);
+    Matrix3 change = deviator(2 * matrix + fibres);
     change.diagonal().array() += bulkModulus * h.trace();
     return change;
   }
@@ -108,10 +115,12 @@ struct FibreElasticity {
     const double fibres = fibreSlope(at.stretch) * at.stretch + std::abs(fibreForce(at.stretch));
     return bulkModulus + matrix + fibres + 16.0 / 9.0 * w.curvature * at.first * at.first;
   }
-  /// The energy W [J/m^3].
-  double elasticEnergy(const Matrix3& f) const {
+  /// The energy W [J/m^3] of the parts that have not failed.
+  double elasticEnergy(const Matrix3& f, const IntactParts& intact = {}) const {
     const StrainInvariants strain(f);
-    const double logarithm = 0.5 * std::log1p(strain.volume), fibres = fibreEnergy(Point(*this, f).stretch);
+    const double logarithm = 0.5 * std::log1p(strain.volume);
+    const double fibres = intact.fibres ? fibreEnergy(Point(*this, f).stretch) : 0;
+    if (!intact.matrix) return fibres;
     return rubberEnergy(strain.isochoricFirst(), strain.isochoricSecond()) + fibres +
            0.5 * bulkModulus * logarithm * logarithm;
   }

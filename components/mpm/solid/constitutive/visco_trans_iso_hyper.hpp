@@ -138,6 +138,9 @@ struct ViscoTransIsoHyper : FibreElasticity {
       tags.required("t" + number, members[k].second, "s", "relaxation time of this element; 0: the element is omitted",
                     input::nonNegative());
     }
+    tags.ignored("max_fiber_strain", "only Uintah's failure_option 1 uses it")
+        .ignored("max_matrix_strain", "only Uintah's failure_option 1 uses it");
+    refuseSwitch(tags, "failure_option", "neither the fibres nor the matrix fail");
     refuseSwitch(tags, "active", "the stress follows from the deformation alone");
     return tags;
   }

@@ -27,6 +27,12 @@ TEST(NominalTangent, IsTheDerivativeOfTheStressOfHyperelasticModels) {
     expectConsistentTangent(MaterialPoint<TransIsoHyper>{fibres}, f);
   }
   expectConsistentTangent(MaterialPoint<TransIsoHyper>{fibres}, f.inverse());
+  fibres.failureOption = 1;
+  for (const auto& [stretch, shear] : {std::pair{100.0, 1e-3}, {1e-3, 100.0}}) {
+    fibres.mostFibreStretch = stretch;
+    fibres.mostShear = shear;
+    expectConsistentTangent(MaterialPoint<TransIsoHyper>{fibres}, f);
+  }
 }
 
 TEST(NominalTangent, OfRelaxingFibresCountsWhatTheyRemember) {
