@@ -6,6 +6,6 @@ namespace tushar::mpm::solid {
 
 std::vector<std::string> Solids::foreignLabels() const { return uintahsLabels; }
 
-simulation::OtherNames Solids::otherNames() const { return soilNames; }
+simulation::OtherNames Solids::otherNames() const { return olderLabels; }
 
 }  // namespace tushar::mpm::solid

@@ -85,11 +85,11 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zplus"};
 
 /// Particle variables that Uintah's MohrCoulomb saves under names without `p.`, and older names of variables of
-/// Arenisca.
-inline const simulation::OtherNames soilNames{
-    {"Suction", "p.Suction"},        {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"},
-    {"p.plasticStrainVol", "p.evp"}, {"p.elasticStrainVol", "p.eve"},  {"p.kappa", "p.Kappa"},
-    {"p.arenisca_kappa", "p.Kappa"}};
+/// Arenisca and of the position.
+inline const simulation::OtherNames olderLabels{
+    {"p.xx", "p.x"},        {"Suction", "p.Suction"},        {"SpecificVol", "p.SpecificVol"},
+    {"c", "p.cohesion"},    {"p.plasticStrainVol", "p.evp"}, {"p.elasticStrainVol", "p.eve"},
+    {"p.kappa", "p.Kappa"}, {"p.arenisca_kappa", "p.Kappa"}};
 
 template <class S>
 void addForeignTags(input::Schema<S>& mpm) {
