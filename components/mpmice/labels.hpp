@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <array>
 
 #include "components/euler/labels.hpp"
@@ -23,6 +25,12 @@ inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the 
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
     "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> sweptBy{
+    "c.sweptBy", "1",
+    "mean displacement of the bodies that moved through the lower faces, in cell widths; infinite if none did"};
+/// c.sweptBy of faces through which no body moved.
+inline constexpr double notSwept = std::numeric_limits<double>::infinity();
 /// A pair of labels, each with one number per axis: for the walls at the lower faces of a cell, and for those at the
 /// upper faces.
 template <int D>

@@ -157,8 +157,7 @@ void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) co
                     requiresNew(p::deformationMeasure), when(burns(), requiresNew(p::unburned)),
                     computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
-                        withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
-                        withoutMaterial(computes(c::swept<D>)));
+                        withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)), withoutMaterial(all<SweptFaces<D>>()));
 }
 
 template <int D>

@@ -12,12 +12,13 @@ template <int D>
 struct BodiesInStep {
   KnownWalls<D> walls;
   CellView<const double> newFree;
-  CellView<const Vec<D>> swept;
+  CellView<const Vec<D>> swept, sweptBy;
 
   static BodiesInStep from(auto& take, bool isViscous) {
     return {.walls = KnownWalls<D>::from(take, 0, isViscous),
             .newFree = take(requiresNew(c::unfilledVolume, 3)),
-            .swept = take(requiresNew(c::swept<D>, 2))};
+            .swept = take(requiresNew(c::swept<D>, 2)),
+            .sweptBy = take(requiresNew(c::sweptBy<D>, 2))};
   }
 };
 
@@ -141,10 +142,12 @@ class WallExchange {
   }
 
   /// The volume of gas, per cell volume, that follows walls up through the lower face of a cell. It is the volume that
-  /// the covered fraction of the face would sweep, minus the volume that bodies swept.
+  /// the covered fraction of the face would sweep, minus the volume that bodies swept. Walls move with the bodies that
+  /// move through the face; if none does, with the velocity of the nodes.
   double followingUp(const Index<D>& above, int axis, double wallVelocity) const {
-    return (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
-           step_.swept[above][axis];
+    const double by = step_.sweptBy[above][axis];
+    const double shift = by == c::notSwept ? wallVelocity * dt_ * level_.inverseSpacing(axis) : by;
+    return (1 - space_.aperture(above, axis, 0)) * shift - step_.swept[above][axis];
   }
 
   /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and
@@ -156,8 +159,10 @@ class WallExchange {
     if (up == 0) return;
     const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
     if (isClosedPore(receiver)) return;
-    const std::optional<Gift> gas = givenBy(donor, receiver);
+    std::optional<Gift> gas = isFull(donor) ? passedBy(donor, axis) : givenBy(donor, receiver);
     if (!gas) return;
+    if (isFull(receiver)) gas->share *= acceptedBy(receiver);
+    if (!(gas->share > 0)) return;
     if (masses.below)
       (side == 0 ? *masses.below : *masses.above)[cell][axis] +=
           up * gas->share * gas->of.u[euler::kDensity] * level_.spacing(axis) / dt_;
@@ -176,6 +181,68 @@ class WallExchange {
     Parcel<D> of;
     double share = 1;
   };
+
+  /// Whether bodies fill a cell at the start of a step.
+  bool isFull(const Index<D>& cell) const { return space_.isEmpty(cell); }
+
+  /// The volumes, per cell volume, that follow walls into and out of a cell along each axis.
+  struct Following {
+    std::array<double, D> in{}, out{};
+
+    /// The volume that flows in along other axes.
+    double inAcross(int axis) const {
+      double sum = 0;
+      for (int d = 0; d < D; ++d)
+        if (d != axis) sum += in[static_cast<std::size_t>(d)];
+      return sum;
+    }
+  };
+  /// Calls `visit(axis, neighbour, volume)` for the faces of a cell through which gas follows walls, with the volume
+  /// that flows in, per cell volume; it is negative for gas that flows out.
+  template <class Visit>
+  void forEachFollowing(const Index<D>& cell, Visit&& visit) const {
+    for (int d = 0; d < D; ++d)
+      for (int side = 0; side < 2; ++side) {
+        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
+        if (space_.isAtSide(cell, d, side) || !mayFlow(face, d)) continue;
+        const double up = followingUp(face, d, nodes_.velocityAt(face, d, mpm::solid::lane::velocity)[d]);
+        if (up != 0) visit(d, side == 0 ? cell - Index<D>::unit(d) : face, side == 0 ? up : -up);
+      }
+  }
+  Following followingAt(const Index<D>& cell) const {
+    Following volumes;
+    forEachFollowing(cell, [&](int axis, const Index<D>& neighbour, double volume) {
+      const auto d = static_cast<std::size_t>(axis);
+      if (volume < 0)
+        volumes.out[d] -= volume;
+      else if (!isFull(neighbour))
+        volumes.in[d] += volume;
+    });
+    return volumes;
+  }
+  /// What a cell that bodies fill passes on along an axis: gas that flows in along other axes, as where a hole moves
+  /// around an edge. So no gas passes straight through a body whose boxes do not move exactly as its walls do.
+  std::optional<Gift> passedBy(const Index<D>& cell, int axis) const {
+    const Following volumes = followingAt(cell);
+    const double passing = volumes.inAcross(axis), asked = volumes.out[static_cast<std::size_t>(axis)];
+    if (!(passing > 0)) return std::nullopt;
+    Parcel<D> mean;
+    forEachFollowing(cell, [&](int along, const Index<D>& neighbour, double volume) {
+      if (along != axis && volume > 0 && !isFull(neighbour)) mean.add(cells_.parcel(neighbour), volume / passing);
+    });
+    return Gift{mean, std::min(1.0, passing / asked)};
+  }
+  /// The fraction of the gas that flows into a cell filled by bodies which has room in it after the step, or which it
+  /// passes on.
+  double acceptedBy(const Index<D>& cell) const {
+    const Following volumes = followingAt(cell);
+    double room = step_.newFree[cell], all = 0;
+    for (int d = 0; d < D; ++d) {
+      room += std::min(volumes.out[static_cast<std::size_t>(d)], volumes.inAcross(d));
+      all += volumes.in[static_cast<std::size_t>(d)];
+    }
+    return all > room ? std::max(0.0, room) / all : 1;
+  }
 
   /// What a donor can give. A donor that is mostly free, or that will be merged with such a neighbour, gives all that
   /// is requested; if it has too little, the neighbour supplies the rest. Any other donor gives gas of the requested

@@ -117,12 +117,50 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
   free.settle();
 }
 
-/// Adds the volume, in cells, that a box sweeps upwards through the lower faces of the surrounding cells while it moves
-/// from `before` to `after`. It is the mean of two sequences of moves along one axis each: with the axes in ascending
-/// and in descending order.
+/// Views of what moves through the lower faces of cells in a step: the volume of bodies, and the mean of their
+/// displacements, weighted by the volumes that boxes sweep.
 template <int D>
-void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after,
-              CellView<Vec<D>> swept) {
+struct SweptFaces {
+  CellView<Vec<D>> volume, shift;
+
+  static SweptFaces from(auto& take) { return {take(computes(c::swept<D>)), take(computes(c::sweptBy<D>))}; }
+};
+
+/// Sums over the boxes that move through faces.
+template <int D>
+class Sweeps {
+ public:
+  explicit Sweeps(const SweptFaces<D>& faces)
+      : faces_(faces), weights_(static_cast<std::size_t>(faces.volume.box().size()), Vec<D>::Zero()) {
+    faces_.volume.fill(Vec<D>::Zero());
+    faces_.shift.fill(Vec<D>::Zero());
+  }
+  /// Adds the volume, in cells, that a box sweeps upwards through the lower faces of the surrounding cells while it
+  /// moves from `before` to `after`. It is the mean of two sequences of moves along one axis each: with the axes in
+  /// ascending and in descending order.
+  void add(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after);
+  /// Divides the sums of displacements by those of their weights.
+  void settle() const {
+    forEach<D>(faces_.volume.box(), [&](const Index<D>& cell) {
+      const Vec<D>& weight = weights_[numberOf(cell)];
+      for (int a = 0; a < D; ++a)
+        faces_.shift[cell][a] = weight[a] > 0 ? faces_.shift[cell][a] / weight[a] : c::notSwept;
+    });
+  }
+
+ private:
+  std::size_t numberOf(const Index<D>& cell) const {
+    Index3 at = faces_.volume.box().lower;
+    for (int d = 0; d < D; ++d) at[d] = cell[d];
+    return faces_.volume.box().offset(at);
+  }
+
+  const SweptFaces<D>& faces_;
+  std::vector<Vec<D>> weights_;
+};
+
+template <int D>
+void Sweeps<D>::add(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after) {
   const Box from = before.reach(), to = after.reach();
   Box reach = from;
   for (int d = 0; d < D; ++d) {
@@ -135,7 +173,8 @@ void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const Partic
       alongAxes<D>(reach, [&](int axis, int k) { return after.lengthAbove(axis, k) - before.lengthAbove(axis, k); });
   forEach<D>(reach, [&](const Index<D>& k) {
     const Index<D> cell = origin + k;
-    if (!swept.box().contains(cell)) return;
+    if (!faces_.volume.box().contains(cell)) return;
+    Vec<D>& weights = weights_[numberOf(cell)];
     for (int a = 0; a < D; ++a) {
       double rising = 1, falling = 1;
       for (int d = 0; d < D; ++d) {
@@ -144,7 +183,10 @@ void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const Partic
         rising *= d < a ? is : was;
         falling *= d < a ? was : is;
       }
-      swept[cell][a] += 0.5 * up[a][k[a] - reach.lower[a]] * (rising + falling);
+      const double volume = 0.5 * up[a][k[a] - reach.lower[a]] * (rising + falling);
+      faces_.volume[cell][a] += volume;
+      faces_.shift[cell][a] += std::abs(volume) * (after.middle[a] - before.middle[a]);
+      weights[a] += std::abs(volume);
     }
   });
 }
@@ -161,20 +203,21 @@ Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {
 /// the latter, each box keeps the shape that it had at the start of the step.
 template <int D>
 void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
-                   const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, CellView<Vec<D>> swept) {
+                   const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, const SweptFaces<D>& swept) {
   const Level& level = patch.level();
   free.clear();
-  swept.fill(Vec<D>::Zero());
+  Sweeps<D> sweeps(swept);
   for (const MovedBoxes<D>& boxes : materials)
     forEachParticle<D>(level, boxes.before.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
       if (boxes.after.x[p][0] == data::removed) return;  // its space becomes free, as that of a burnt particle
       const ParticleBox<D> before = boxes.before.of(frame, p);
       ParticleBox<D> after = boxes.after.of(frame, p);
       after.middle = withinReach<D>(after.middle, before.edges.cwiseMax(after.edges));
-      addSwept<D>(cell, before, {after.middle, before.edges}, swept);
+      sweeps.add(cell, before, {after.middle, before.edges});
       free.take(cell, after);
     });
   free.settle();
+  sweeps.settle();
 }
 
 }  // namespace tushar::mpmice
