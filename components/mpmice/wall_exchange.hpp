@@ -161,7 +161,8 @@ class WallExchange {
     if (isClosedPore(receiver)) return;
     std::optional<Gift> gas = isFull(donor) ? passedBy(donor, axis) : givenBy(donor, receiver);
     if (!gas) return;
-    if (isFull(receiver)) gas->share *= acceptedBy(receiver);
+    if (isFull(receiver) && !isFull(donor))
+      gas->share *= passingAt(receiver).accepted(static_cast<std::size_t>(axis), step_.newFree[receiver]);
     if (!(gas->share > 0)) return;
     if (masses.below)
       (side == 0 ? *masses.below : *masses.above)[cell][axis] +=
@@ -185,16 +186,42 @@ class WallExchange {
   /// Whether bodies fill a cell at the start of a step.
   bool isFull(const Index<D>& cell) const { return space_.isEmpty(cell); }
 
-  /// The volumes, per cell volume, that follow walls into and out of a cell along each axis.
-  struct Following {
-    std::array<double, D> in{}, out{};
+  /// The volumes, per cell volume, that follow walls into and out of a cell that bodies fill, along each axis, and what
+  /// it passes on. It passes on only gas that flows in along other axes, as where a hole moves around an edge. So no
+  /// gas passes straight through a body whose boxes do not move exactly as its walls do.
+  struct Passing {
+    using PerAxis = std::array<double, D>;
+    PerAxis in{}, out{};
+    std::array<PerAxis, D> through{};  ///< volume that flows in along the first axis and out along the second
 
-    /// The volume that flows in along other axes.
-    double inAcross(int axis) const {
+    /// Divides what flows out among the axes along which gas flows in, in proportion to what these bring.
+    void divide() {
+      for (std::size_t d = 0; d < D; ++d) {
+        double across = 0;
+        for (std::size_t e = 0; e < D; ++e) across += e == d ? 0 : in[e];
+        for (std::size_t e = 0; e < D; ++e)
+          if (e != d && across > 0) through[e][d] = std::min(1.0, out[d] / across) * in[e];
+      }
+      for (std::size_t e = 0; e < D; ++e)
+        if (const double most = passedFrom(e); most > in[e])
+          for (double& volume : through[e]) volume *= in[e] / most;
+    }
+    double passedFrom(std::size_t axis) const {
       double sum = 0;
-      for (int d = 0; d < D; ++d)
-        if (d != axis) sum += in[static_cast<std::size_t>(d)];
+      for (const double volume : through[axis]) sum += volume;
       return sum;
+    }
+    double passedTo(std::size_t axis) const {
+      double sum = 0;
+      for (const PerAxis& from : through) sum += from[axis];
+      return sum;
+    }
+    /// The fraction of what flows in along an axis that is passed on, or that has room in the cell.
+    double accepted(std::size_t axis, double room) const {
+      double rest = 0;
+      for (std::size_t e = 0; e < D; ++e) rest += in[e] - passedFrom(e);
+      const double passed = passedFrom(axis), kept = rest > room ? std::max(0.0, room) / rest : 1;
+      return (passed + kept * (in[axis] - passed)) / in[axis];
     }
   };
   /// Calls `visit(axis, neighbour, volume)` for the faces of a cell through which gas follows walls, with the volume
@@ -209,8 +236,8 @@ class WallExchange {
         if (up != 0) visit(d, side == 0 ? cell - Index<D>::unit(d) : face, side == 0 ? up : -up);
       }
   }
-  Following followingAt(const Index<D>& cell) const {
-    Following volumes;
+  Passing passingAt(const Index<D>& cell) const {
+    Passing volumes;
     forEachFollowing(cell, [&](int axis, const Index<D>& neighbour, double volume) {
       const auto d = static_cast<std::size_t>(axis);
       if (volume < 0)
@@ -218,30 +245,22 @@ class WallExchange {
       else if (!isFull(neighbour))
         volumes.in[d] += volume;
     });
+    volumes.divide();
     return volumes;
   }
-  /// What a cell that bodies fill passes on along an axis: gas that flows in along other axes, as where a hole moves
-  /// around an edge. So no gas passes straight through a body whose boxes do not move exactly as its walls do.
+  /// What a cell that bodies fill passes on along an axis.
   std::optional<Gift> passedBy(const Index<D>& cell, int axis) const {
-    const Following volumes = followingAt(cell);
-    const double passing = volumes.inAcross(axis), asked = volumes.out[static_cast<std::size_t>(axis)];
-    if (!(passing > 0)) return std::nullopt;
+    const Passing volumes = passingAt(cell);
+    const auto d = static_cast<std::size_t>(axis);
+    const double passed = volumes.passedTo(d);
+    if (!(passed > 0)) return std::nullopt;
     Parcel<D> mean;
     forEachFollowing(cell, [&](int along, const Index<D>& neighbour, double volume) {
-      if (along != axis && volume > 0 && !isFull(neighbour)) mean.add(cells_.parcel(neighbour), volume / passing);
+      const auto e = static_cast<std::size_t>(along);
+      if (volume > 0 && volumes.through[e][d] > 0 && !isFull(neighbour))
+        mean.add(cells_.parcel(neighbour), volume / volumes.in[e] * volumes.through[e][d] / passed);
     });
-    return Gift{mean, std::min(1.0, passing / asked)};
-  }
-  /// The fraction of the gas that flows into a cell filled by bodies which has room in it after the step, or which it
-  /// passes on.
-  double acceptedBy(const Index<D>& cell) const {
-    const Following volumes = followingAt(cell);
-    double room = step_.newFree[cell], all = 0;
-    for (int d = 0; d < D; ++d) {
-      room += std::min(volumes.out[static_cast<std::size_t>(d)], volumes.inAcross(d));
-      all += volumes.in[static_cast<std::size_t>(d)];
-    }
-    return all > room ? std::max(0.0, room) / all : 1;
+    return Gift{mean, passed / volumes.out[d]};
   }
 
   /// What a donor can give. A donor that is mostly free, or that will be merged with such a neighbour, gives all that
