@@ -3,6 +3,7 @@
 #include "components/ice/tasks/carry_scalar.hpp"
 #include "components/mpmice/burn/burn_modes.hpp"
 #include "components/mpmice/burn/gas_of_burning.hpp"
+#include "components/mpmice/burn/unsteady_surface.hpp"
 #include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/add_gravity.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
@@ -76,6 +77,8 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   if (burns()) {
     tasks.perMaterial("mpmice::startUnburned", startUnburned, materials, requiresNew(p::mass), computes(p::unburned));
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(c::burntSinceStart));
+    if (isUnsteady())
+      tasks.perMaterial("mpmice::startSurface", startSurface, materials, requiresNew(p::mass), all<NewSurface>());
     if (waitsForFlames())
       tasks.perPatch("mpmice::startBurnModes", startBurnModes<D>, computes(c::burnMode), computes(c::waited),
                      computes(c::inductionTime));
@@ -105,29 +108,6 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials,
           gasIn(readsOld, {.state = isViscous() && settings_.diffusion.varies() ? 2 : 0, .mass = 3, .room = 3})),
       withoutMaterial(all<KnownWalls<D>>(2, isViscous())), requiresNew(g::record, isViscous() ? 3 : 2),
       computes(total::forceOnBodies), computes(g::surroundingForce<D>));
-}
-
-/// Adds the tasks that find the mass that burns in the step, given the state at its start.
-template <int D>
-void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
-                                   const ParticleLabel<double>& state) const {
-  constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 3, .room = 3};
-  tasks.acrossMaterials("mpmice::measureReactant", measureReactant<D>, materials, with(settings_),
-                        all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
-  if (hasCracks()) {
-    tasks.acrossMaterials("mpmice::measureLoad", measureLoad<D>, materials, with(settings_), with(state.components),
-                          all<StressedParticles>(keepsStress(materials[settings_.burning->body]),
-                                                 settings_.burning->model.ddt()->burnsCracks, &state),
-                          withoutMaterial(computes(c::bodyPressure)), withoutMaterial(computes(c::crackRadius)));
-    tasks.perPatch("mpmice::findBurnModes", findBurnModes<D>, with(settings_), requiresOld(delT),
-                   gasIn(readsOld, reach), all<Reactant>(1), all<Load>(1), all<Waited>(waitsForFlames()),
-                   all<NewBurnModes>());
-  }
-  tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_), gasIn(readsOld, reach), all<Reactant>(1),
-                 all<KnownModes>(hasCracks(), 1), all<NewBurning<D>>());
-  tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_), startTime(), requiresOld(delT),
-                 requiresNew(c::burnRate<D>, 2), requiresNew(c::burnRateWithin, 1), requiresNew(c::reactantMass, 1),
-                 computes(c::burntShare));
 }
 
 /// Adds the tasks for the pressure at the end of the step, including the pressure on walls.
