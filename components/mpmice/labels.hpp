@@ -20,6 +20,11 @@ inline constexpr CellLabel<double> unfilledVolume{"c.unfilledVolume", "1",
                                                   "fraction of the cell that bodies do not fill, including holes"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the lower faces that bodies cover"};
+/// Labels of each body if there are several.
+inline constexpr CellLabel<double> freeOfBody{"c.freeOfBody", "1", "fraction of the cell that the body does not fill"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> coverageOfBody{"c.coverageOfBody", "1",
+                                                  "fraction of the lower faces that the body covers"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
     "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};

@@ -141,10 +141,11 @@ class WallExchange {
   }
 
   /// The volume of gas, per cell volume, that follows walls up through the lower face of a cell. It is the volume that
-  /// the covered fraction of the face would sweep, minus the volume that bodies swept.
+  /// the covered fraction of the face would sweep, minus the volume that bodies swept; where bodies overlap, each has
+  /// swept what it covers.
   double followingUp(const Index<D>& above, int axis, double wallVelocity) const {
-    return (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
-           step_.swept[above][axis];
+    const double covered = std::max(1 - space_.aperture(above, axis, 0), nodes_.coverageAt(above, axis));
+    return covered * wallVelocity * dt_ * level_.inverseSpacing(axis) - step_.swept[above][axis];
   }
 
   /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and

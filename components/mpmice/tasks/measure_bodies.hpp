@@ -117,6 +117,23 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
   free.settle();
 }
 
+/// Views of what one of several bodies leaves free.
+template <int D>
+struct FreeOfBody : FreeShares<D> {
+  static FreeOfBody from(auto& take) { return {{take(computes(c::freeOfBody)), take(computes(c::coverageOfBody<D>))}}; }
+};
+
+/// Computes the fraction of cells that one of several bodies leaves free, and what it covers of faces, at the start of
+/// a step.
+template <int D>
+void measureBody(const Patch& patch, const mpm::solid::Material&, const Boxes<D>& boxes, const FreeOfBody<D>& free) {
+  free.clear();
+  forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
+    free.take(cell, boxes.of(frame, p));
+  });
+  free.settle();
+}
+
 /// Adds the volume, in cells, that a box sweeps upwards through the lower faces of the surrounding cells while it moves
 /// from `before` to `after`. It is the mean of two sequences of moves along one axis each: with the axes in ascending
 /// and in descending order.
