@@ -178,9 +178,9 @@ class WallExchange {
     double share = 1;
   };
 
-  /// What a donor can give. A donor that is mostly free, or that will be merged with such a neighbour, gives all that
-  /// is requested; if it has too little, the neighbour supplies the rest. Any other donor gives gas of the requested
-  /// density, but at most all that it has.
+  /// What a donor can give. A donor with gas that is mostly free, or one that will be merged with such a neighbour,
+  /// gives all that is requested; if it has too little, the neighbour supplies the rest. Any other donor gives gas of
+  /// the requested density, but at most all that it has.
   std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
     const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
     if (!wanted) return std::nullopt;
@@ -205,13 +205,14 @@ class WallExchange {
       }
     return (1 + roundOffOfShares) * mass;
   }
-  /// Whether a cell is mostly free after the step, or will be merged with such a neighbour, possibly across a corner.
+  /// Whether a cell contains gas and is mostly free after the step, or will be merged with such a neighbour, possibly
+  /// across a corner.
   bool isBesideRoom(const Index<D>& cell) const {
-    const auto hasRoom = [&](const Index<D>& at) {
-      return step_.newFree[at] >= smallFreeVolume && cells_.held.density[at] > 0;
-    };
-    bool any = hasRoom(cell);
-    if (!any) forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) { any |= hasRoom(at); });
+    const auto isFree = [&](const Index<D>& at) { return step_.newFree[at] >= smallFreeVolume; };
+    const auto hasGas = [&](const Index<D>& at) { return cells_.held.density[at] > 0; };
+    if (isFree(cell)) return hasGas(cell);
+    bool any = false;
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) { any |= isFree(at) && hasGas(at); });
     return any;
   }
 

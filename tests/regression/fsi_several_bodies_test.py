@@ -30,8 +30,8 @@ PLATE = with_second_body(
 # A light disc, and a heavy one that moves through it.
 DISCS = with_second_body(
     saving(DISC, *ConservationTest.KEPT, "GasWorkOnBodies"), ((">1000<", ">10<"),),
-    ((">1000<", ">100<"), ('name="disc"', 'name="heavy"'), ('label="disc"', 'label="second"'), ("[1,0.618,0]", "[-1,0.3,0]"),
-     ("[0.5,0.5,", "[0.62,0.47,")))
+    ((">1000<", ">100<"), ('name="disc"', 'name="heavy"'), ('label="disc"', 'label="second"'),
+     ("[1,0.618,0]", "[-1,0.3,0]"), ("[0.5,0.5,", "[0.62,0.47,")))
 
 
 class Walls(SceneTest):
