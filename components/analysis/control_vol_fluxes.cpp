@@ -187,8 +187,8 @@ void addBoxFlow(const Patch& patch, const Box& box, int material, CellView<const
         Index<D> behind = cell;
         behind[d] += side == 0 ? -1 : 1;
         const bool isEnd = !density.box().contains(behind);
-        const double v =
-            isEnd ? ends[2 * d + side](velocity[cell][d]) : 0.5 * (velocity[cell][d] + velocity[behind][d]);
+        const double v = isEnd ? ends[2 * d + side](velocity[cell][d], level.partAt<D>(d, side, behind))
+                               : 0.5 * (velocity[cell][d] + velocity[behind][d]);
         const bool isFromInside = isEnd || (side == 0 ? v <= 0 : v > 0);
         const double rho = density[isFromInside ? cell : behind];
         const std::size_t place = 2 * level.axis(d) + side;

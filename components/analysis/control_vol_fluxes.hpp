@@ -25,8 +25,8 @@ struct BoxFlow {
 
 /// Adds the contribution of a patch to a box of cells. The flux through a side is the density of the upwind cell times
 /// the mean velocity of the cells on both sides. At the end of the grid, the density is that of the cell inside, and
-/// the velocity is the prescribed one, if there is one; at a symmetry plane the flux is 0. Density and velocity need
-/// one layer of ghosts.
+/// the velocity is the one prescribed on the side or the part of it, if there is one; at a symmetry plane the flux is
+/// 0. Density and velocity need one layer of ghosts.
 template <int D>
 void addBoxFlow(const Patch& patch, const Box& box, int material, CellView<const double> density,
                 CellView<const Vec<D>> velocity, BoxFlow& flow);

@@ -38,13 +38,15 @@ MixedGas Blend::law(double energy) const {
 BlendLaws::BlendLaws(const std::vector<Gas>& gases) : gases_(gases) {
   for (const Gas& gas : gases_) {
     const CurvedGas* law = gas.law ? std::get_if<CurvedGas>(gas.law.get()) : nullptr;
-    substances_.push_back({gas.specificHeat, law ? law->gruneisen() : gas.gamma - 1, gas.pInfinity, law});
+    const RealGas* spheres = gas.law ? std::get_if<RealGas>(gas.law.get()) : nullptr;
+    const double ofHeat = law ? law->gruneisen() : spheres ? spheres->gasConstant() / gas.specificHeat : gas.gamma - 1;
+    substances_.push_back({gas.specificHeat, ofHeat, gas.pInfinity, spheres ? spheres->covolume() : 0, law});
   }
 }
 
 double BlendLaws::Substance::densityAt(double pressure, double temperature, double guess) const {
   const double heat = gruneisen * specificHeat * temperature;
-  if (!law) return (pressure + pInfinity) / heat;
+  if (!law) return (pressure + pInfinity) / (heat + covolume * pressure);
   const ColdCurve& cold = law->cold();
   if (isLinear()) return cold.density * (1 + (pressure - cold.pressureThere - heat * cold.density) / cold.a);
   if (cold.kind == ColdCurve::Kind::murnaghan && gruneisen == 0) return densityOfMurnaghan(cold, pressure);
@@ -73,8 +75,9 @@ struct BlendLaws::Sums {
   void add(double mass, double rho, const Substance& of, double temperature) {
     const double linear = of.isLinear() ? of.law->cold().density : rho, heat = of.gruneisen * of.specificHeat;
     const double cold = of.coldPressure(rho), slope = of.law ? slopeOf(of.law->cold(), rho, cold) : 0;
-    const double stiffness = slope + (of.isLinear() ? 0 : heat * temperature);  // dp/drho at constant T
-    const double perKelvin = heat * linear;                                     // dp/dT at constant rho
+    const double room = 1 - of.covolume * rho;
+    const double stiffness = slope + (of.isLinear() ? 0 : heat * temperature / (room * room));  // dp/drho at constant T
+    const double perKelvin = heat * linear / room;                                              // dp/dT at constant rho
     const double square = rho * rho, yield = mass / (square * stiffness);
     volume += mass / rho;
     energy += mass * (of.coldEnergy(rho) + of.specificHeat * temperature);

@@ -30,7 +30,8 @@ struct Blend {
 /// The laws of gases that share cells.
 class BlendLaws {
  public:
-  /// `gases` are ideal or stiffened gases, or have a law of type CurvedGas. All have a specific heat.
+  /// `gases` are ideal or stiffened gases, or have a law of type CurvedGas or, without attraction, RealGas. All have a
+  /// specific heat.
   explicit BlendLaws(const std::vector<Gas>& gases);
 
   std::size_t size() const { return substances_.size(); }
@@ -57,11 +58,12 @@ class BlendLaws {
   }
 
  private:
-  /// A gas with p = p_cold(rho) + h(rho) c_v T and e = E_cold(rho) / rho + c_v T, where h = Gamma rho.
+  /// A gas with p = p_cold(rho) + h(rho) c_v T and e = E_cold(rho) / rho + c_v T, where h = Gamma rho / (1 - b rho).
   struct Substance {
     double specificHeat = 0;  ///< c_v [J/(kg K)]
     double gruneisen = 0;     ///< Gamma
     double pInfinity = 0;     ///< p_inf [Pa] of a stiffened gas
+    double covolume = 0;      ///< b [m³/kg] of hard spheres
     const CurvedGas* law = nullptr;
 
     bool isLinear() const { return law && law->cold().kind == ColdCurve::Kind::linear; }

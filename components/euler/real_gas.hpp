@@ -95,6 +95,10 @@ class RealGas {
   };
   explicit RealGas(const Numbers& numbers) : n_(numbers) {}
 
+  double gasConstant() const { return n_.gasConstant; }
+  /// The volume b of the molecules [m³/kg].
+  double covolume() const { return n_.covolume; }
+
   static bool isBarotropic() { return false; }
   double pressure(double rho, double energy) const { return lastAt(rho, temperature(rho, energy)); }
   double last(double rho, double energy) const { return pressure(rho, energy); }

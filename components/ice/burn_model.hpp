@@ -69,13 +69,69 @@ struct SteadyBurn {
     return most;
   }
 
- private:
+ protected:
   /// Burn rate m [kg/(m² s)] of a surface with the temperature `surface` [K].
   double rateAt(double surface, const AtSurface& at) const {
-    const double reaction = solidFactor * gasConstant * solidConductivity * at.bodyDensity * surface * surface *
-                            std::exp(-activationEnergy / (gasConstant * surface));
     const double heating = surface - at.bodyTemperature - 0.5 * solidHeat / specificHeat;
-    return std::sqrt(reaction / (activationEnergy * specificHeat * heating));
+    return std::sqrt(reactionAt(surface, at.bodyDensity) / (activationEnergy * specificHeat * heating));
+  }
+  /// A R k_c rho T_s² exp(-E / (R T_s)), given T_s [K] and rho [kg/m³].
+  double reactionAt(double surface, double density) const {
+    return solidFactor * gasConstant * solidConductivity * density * surface * surface *
+           std::exp(-activationEnergy / (gasConstant * surface));
+  }
+};
+
+/// What a burning surface remembers: its temperature T_s [K], and the temperature gradient below it, beta [K/m]. The
+/// gradient is 0 where nothing burns.
+struct SurfaceHeat {
+  double temperature = 0, gradient = 0;
+
+  bool burns() const { return gradient > 0; }
+};
+
+/// The unsteady deflagration of a solid: the reactions are as fast as in SteadyBurn, but T_s and the gradient beta
+/// below the surface follow those of the steady deflagration with delays. With the steady m,
+///
+///   dbeta/dt = (beta_steady - beta) / tau,     beta_steady = m c (T_s,steady - T_0) / k_c,  tau = N_c k_c rho / (c m²)
+///   dT_s/dt = (T_s,steady - T_s) / (N_g tau).
+///
+/// The rate is the smaller root of Q_c m² / 2 - k_c beta m + A R k_c rho T_s² exp(-E / (R T_s)) / E = 0, which is the
+/// first equation of SteadyBurn with k_c beta in place of m c (T_s - T_0). Then it is scaled to m (rate / m)^B.
+///
+/// Source: the theory of Zel'dovich and Novozhilov, as in S. F. Son & M. Q. Brewster, J. Propul. Power 9 (1993) 222;
+/// the delays and B are those of Uintah's Unsteady_Burn.
+struct UnsteadyBurn : SteadyBurn {
+  double solidDelay = 0;  ///< N_c [1]
+  double gasDelay = 0;    ///< N_g [1]
+  double exponent = 1;    ///< B [1]
+
+  /// The state that a surface has in a steady deflagration.
+  SurfaceHeat steady(const AtSurface& at) const {
+    const double surface = surfaceTemperature(at);
+    return {surface, rateAt(surface, at) * specificHeat * (surface - at.bodyTemperature) / solidConductivity};
+  }
+  /// The state after the time dt [s], during which the conditions are constant. A surface that did not burn begins with
+  /// the steady state.
+  SurfaceHeat after(const SurfaceHeat& before, double dt, const AtSurface& at) const {
+    SurfaceHeat state = steady(at);
+    if (!before.burns()) return state;
+    const double m = rateAt(state.temperature, at);
+    const double delay = solidDelay * solidConductivity * at.bodyDensity / (specificHeat * m * m);
+    state.gradient += (before.gradient - state.gradient) * std::exp(-dt / delay);
+    state.temperature += (before.temperature - state.temperature) * std::exp(-dt / (gasDelay * delay));
+    return state;
+  }
+  /// The burn rate [kg/(m² s)] in a state; none if beta is too small for T_s, so that the equation has no root.
+  std::optional<double> rateIn(const SurfaceHeat& state, const AtSurface& at) const {
+    const double flow = solidConductivity * state.gradient;
+    const double reaction = reactionAt(state.temperature, at.bodyDensity) / activationEnergy;
+    const double square = flow * flow - 2 * solidHeat * reaction;
+    if (!(square >= 0)) return {};
+    const double unscaled = 2 * reaction / (flow + std::sqrt(square));
+    if (exponent == 1) return unscaled;
+    const double m = rate(at);
+    return m * std::pow(unscaled / m, exponent);
   }
 };
 
@@ -130,10 +186,12 @@ struct BurnModel {
   double ignitionTemperature = 0;  ///< ignition temperature [K]
   double leastPressure = 0;        ///< pressure below which nothing burns [Pa]
   double heat = 0;                 ///< heat of the reaction [J/kg]
-  std::variant<SimpleBurn, SteadyBurn, Decay, Ddt> law;
+  std::variant<SimpleBurn, SteadyBurn, UnsteadyBurn, Decay, Ddt> law;
 
   /// The model of deflagration in cracks; null for other models.
   const Ddt* ddt() const { return std::get_if<Ddt>(&law); }
+  /// The model whose surfaces have a state; null for other models.
+  const UnsteadyBurn* unsteady() const { return std::get_if<UnsteadyBurn>(&law); }
   /// Whether only surfaces burn, rather than the whole body.
   bool burnsAtSurface() const { return !std::holds_alternative<Decay>(law); }
   /// Burn rate of a surface [kg/(m² s)].
@@ -173,6 +231,18 @@ struct SteadyBurnSection : SteadyBurn {
   }
 };
 const input::Schema<SteadyBurnSection>& steadyBurnSchema();
+
+/// The tag `<Unsteady_Burn>`.
+struct UnsteadyBurnSection : UnsteadyBurn {
+  Location where;
+  std::string from, to;
+  double ignitionTemperature = 0, thresholdPressure = 0;
+
+  BurnModel model() const {
+    return {where, from, to, ignitionTemperature, thresholdPressure, solidHeat + gasHeat, UnsteadyBurn(*this)};
+  }
+};
+const input::Schema<UnsteadyBurnSection>& unsteadyBurnSchema();
 
 /// The tag `<DDT1>`.
 struct DdtSection : SteadyBurn, Induction {

@@ -81,6 +81,25 @@ const Schema<SteadyBurnSection>& steadyBurnSchema() {
   return schema;
 }
 
+const Schema<UnsteadyBurnSection>& unsteadyBurnSchema() {
+  static const Schema<UnsteadyBurnSection> schema = [] {
+    const auto of = [](double UnsteadyBurn::*number) -> double UnsteadyBurnSection::* { return number; };
+    Schema<UnsteadyBurnSection> tags(
+        "Unsteady_Burn", "The surface of a body burns; its temperature follows that of Steady_Burn with a delay.");
+    addMaterials(tags);
+    addSteadyBurn(tags, "ThresholdPressure");
+    tags.required("CondUnsteadyCoef", of(&UnsteadyBurn::solidDelay), "1",
+                  "N_c in tau = N_c k_c rho / (c m^2), the delay of the temperature gradient below the surface",
+                  input::nonNegative())
+        .required("GasUnsteadyCoef", of(&UnsteadyBurn::gasDelay), "1",
+                  "N_g: the temperature of the surface has the delay N_g tau", input::nonNegative())
+        .required("BurnrateModCoef", of(&UnsteadyBurn::exponent), "1",
+                  "B: the rate is m (rate / m)^B, with the steady rate m", input::nonNegative());
+    return tags;
+  }();
+  return schema;
+}
+
 namespace {
 
 void addInduction(Schema<DdtSection>& tags) {

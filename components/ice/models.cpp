@@ -18,7 +18,7 @@ using input::Schema;
 namespace {
 
 /// The values of the attribute `type` of a <Model>.
-const std::vector<std::string> modelTypes{"PassiveScalar", "Test",  "Simple_Burn", "Steady_Burn",
+const std::vector<std::string> modelTypes{"PassiveScalar", "Test",  "Simple_Burn", "Steady_Burn",     "Unsteady_Burn",
                                           "DDT1",          "JWLpp", "LightTime",   "BinaryProperties"};
 
 const Schema<ScalarRegion>& startSchema() {
@@ -172,6 +172,7 @@ void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnos
   if (type == "BinaryProperties") return readBinary(model, models, diagnostics);
   if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
   if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
+  if (type == unsteadyBurnSchema().name()) return readBurning(model, unsteadyBurnSchema(), models, diagnostics);
   if (type == ddtSchema().name()) return readBurning(model, ddtSchema(), models, diagnostics);
   if (type != "PassiveScalar")
     return diagnostics.error(model, fmt::format("the type '{}' is not available; remove the model, or use one of {}",
@@ -214,8 +215,9 @@ const Schema<ModelsSection>& modelsSchema() {
               },
               {"Model"},
               "type=\"PassiveScalar\": a quantity per mass that is transported with the gas; type=\"Test\": one "
-              "material is converted into another one; type=\"Simple_Burn\", type=\"Steady_Burn\", type=\"DDT1\": a "
-              "body burns; type=\"JWLpp\": a gas burns at a rate that depends on the pressure; type=\"LightTime\": a "
+              "material is converted into another one; type=\"Simple_Burn\", type=\"Steady_Burn\", "
+              "type=\"Unsteady_Burn\", type=\"DDT1\": a body burns; type=\"JWLpp\": a gas burns at a rate that depends "
+              "on the pressure; type=\"LightTime\": a "
               "gas detonates at given times; type=\"BinaryProperties\": the gas consists of two gases at one "
               "temperature",
               [](std::ostream& out, int indent) {
@@ -223,6 +225,7 @@ const Schema<ModelsSection>& modelsSchema() {
                 massExchangeSchema().describe(out, indent);
                 simpleBurnSchema().describe(out, indent);
                 steadyBurnSchema().describe(out, indent);
+                unsteadyBurnSchema().describe(out, indent);
                 ddtSchema().describe(out, indent);
                 pressureBurnSchema().describe(out, indent);
                 programmedBurnSchema().describe(out, indent);

@@ -5,13 +5,32 @@
 
 namespace tushar::mpmice {
 
+/// Views of one body at the start of a step: its masses and velocities at nodes and, if there are several bodies, what
+/// it leaves free of cells and covers of their lower faces.
+template <int D>
+struct BodyAtFaces {
+  NodeView<const mpm::solid::NodeRecord> records;
+  std::optional<CellView<const double>> free = {};
+  std::optional<CellView<const Vec<D>>> coverage = {};
+
+  static BodyAtFaces from(auto& take, int ghost, bool isOneOfSeveral) {
+    return {.records = take(requiresNew(g::record, ghost)),
+            .free = take(when(isOneOfSeveral, requiresNew(c::freeOfBody, ghost))),
+            .coverage = take(when(isOneOfSeveral, requiresNew(c::coverageOfBody<D>, ghost)))};
+  }
+};
+
 /// Velocities and masses of all solids at nodes, for use at faces. A face distributes forces over the nodes of the
-/// cells on both sides of it, in proportion to the masses at these nodes. Velocity, force and work have the same
-/// weights, so the losses of the gas equal the gains of the nodes.
+/// cells on both sides of it. Velocity, force and work have the same weights, so the losses of the gas equal the gains
+/// of the nodes.
+///
+/// Bodies have parts in a face by what they cover of it; if none covers it, by what they fill of the cells on both
+/// sides, and else by mass. Nodes have parts in their body by mass. So a heavy body that is near a wall of another one,
+/// but not in it, does not move the wall.
 template <int D>
 class BodiesAtNodes {
  public:
-  using Records = std::vector<NodeView<const mpm::solid::NodeRecord>>;
+  using Records = std::vector<BodyAtFaces<D>>;
 
   BodiesAtNodes(const Level& level, const Records& records) : level_(&level), records_(&records) {}
 
@@ -27,33 +46,109 @@ class BodiesAtNodes {
     nodes.upper[axis] = std::min(nodes.upper[axis], level_->cells().upper[axis] + 1);
     return nodes;
   }
-  /// Mass of all solids at the nodes of nodesAt [kg].
+  /// The mass that a force at the face accelerates [kg], that is, the force divided by the acceleration of velocityAt;
+  /// 0 without mass. With one body, it is the mass at the nodes of nodesAt.
   double massAt(const Index<D>& cell, int axis) const {
-    double mass = 0;
-    forEachAt(cell, axis, [&](const mpm::solid::NodeRecord& record) { mass += record[mpm::solid::lane::mass]; });
-    return mass;
-  }
-  /// Mean velocity of all solids at the nodes of nodesAt, weighted by mass [m/s]; 0 without mass. `lane` selects the
-  /// velocity before or after the step in the records.
-  Vec<D> velocityAt(const Index<D>& cell, int axis, int lane) const {
-    double mass = 0;
-    Vec<D> momentum = Vec<D>::Zero();
-    forEachAt(cell, axis, [&](const mpm::solid::NodeRecord& record) {
-      const double m = record[mpm::solid::lane::mass];
-      if (!(m > 0)) return;
-      mass += m;
-      momentum += m * mpm::solid::lanes<D>(record, lane);
+    if (records_->size() == 1) return sumAt(cell, axis, 0, mpm::solid::lane::velocity).mass;
+    double whole = 0, perMass = 0;
+    forEachBody(cell, axis, [&](std::size_t, double part, double mass) {
+      whole += part;
+      perMass += part * (part / mass);
     });
-    return mass > 0 ? Vec<D>(momentum / mass) : momentum;
+    return whole > 0 ? whole * (whole / perMass) : 0;
+  }
+  /// Mean velocity of the solids at the nodes of nodesAt [m/s]; 0 without mass. `lane` selects the velocity before or
+  /// after the step in the records.
+  Vec<D> velocityAt(const Index<D>& cell, int axis, int lane) const {
+    if (records_->size() == 1) return sumAt(cell, axis, 0, lane).velocity();
+    double whole = 0;
+    Vec<D> sum = Vec<D>::Zero();
+    forEachBody(cell, axis, [&](std::size_t body, double part, double) {
+      whole += part;
+      sum += part * sumAt(cell, axis, body, lane).velocity();
+    });
+    return whole > 0 ? Vec<D>(sum / whole) : sum;
+  }
+  /// Calls `visit(body, node, share)` for each part of a force at the face; the shares add up to 1.
+  template <class Visit>
+  void distribute(const Index<D>& cell, int axis, Visit&& visit) const {
+    double whole = 0;
+    forEachBody(cell, axis, [&](std::size_t, double part, double) { whole += part; });
+    forEachBody(cell, axis, [&](std::size_t body, double part, double mass) {
+      forEachAt(cell, axis, body, [&](const Index<D>& node, const mpm::solid::NodeRecord&, double m) {
+        visit(body, node, records_->size() == 1 ? m / mass : m / mass * (part / whole));
+      });
+    });
+  }
+
+  /// The sum of what several bodies cover of a face, which is more than 1 where they overlap; 0 for one body.
+  double coverageAt(const Index<D>& cell, int axis) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < records_->size(); ++k) sum += coverageBy(k, cell, axis);
+    return sum;
   }
 
  private:
+  /// Calls `visit(node, record, mass)` for the nodes of a body that have mass.
   template <class Visit>
-  void forEachAt(const Index<D>& cell, int axis, Visit&& visit) const {
+  void forEachAt(const Index<D>& cell, int axis, std::size_t body, Visit&& visit) const {
+    const auto& records = (*records_)[body].records;
     forEach<D>(nodesAt(cell, axis), [&](const Index<D>& node) {
-      for (const auto& records : *records_) visit(records[node]);
+      if (const double m = records[node][mpm::solid::lane::mass]; m > 0) visit(node, records[node], m);
     });
   }
+  /// Mass [kg] and momentum of a body at the nodes of a face.
+  struct Content {
+    double mass = 0;
+    Vec<D> momentum = Vec<D>::Zero();
+
+    Vec<D> velocity() const { return mass > 0 ? Vec<D>(momentum / mass) : momentum; }
+  };
+  Content sumAt(const Index<D>& cell, int axis, std::size_t body, int lane) const {
+    Content sum;
+    forEachAt(cell, axis, body, [&](const Index<D>&, const mpm::solid::NodeRecord& record, double m) {
+      sum.mass += m;
+      sum.momentum += m * mpm::solid::lanes<D>(record, lane);
+    });
+    return sum;
+  }
+  /// How the parts of bodies in a face are measured.
+  enum class By { coverage, volume, mass };
+
+  /// Calls `visit(body, part, mass)` for the bodies that have a part in a face and mass at its nodes [kg].
+  template <class Visit>
+  void forEachBody(const Index<D>& cell, int axis, Visit&& visit) const {
+    std::array<double, kFewBodies> few{};
+    std::vector<double> many(records_->size() > kFewBodies ? records_->size() : 0);
+    double* masses = many.empty() ? few.data() : many.data();
+    By by = By::mass;
+    for (std::size_t k = 0; k < records_->size(); ++k) {
+      masses[k] = sumAt(cell, axis, k, mpm::solid::lane::velocity).mass;
+      if (!(masses[k] > 0)) continue;
+      if (coverageBy(k, cell, axis) > 0) by = By::coverage;
+      if (by == By::mass && volumeOf(k, cell, axis) > 0) by = By::volume;
+    }
+    for (std::size_t k = 0; k < records_->size(); ++k) {
+      if (!(masses[k] > 0)) continue;
+      const double part = by == By::coverage ? coverageBy(k, cell, axis)
+                          : by == By::volume ? volumeOf(k, cell, axis)
+                                             : masses[k];
+      if (part > 0) visit(k, part, masses[k]);
+    }
+  }
+  /// The fraction of a face that one of several bodies covers; 0 if it is alone.
+  double coverageBy(std::size_t body, const Index<D>& cell, int axis) const {
+    const auto& coverage = (*records_)[body].coverage;
+    return coverage && coverage->box().contains(cell) ? std::min(1.0, (*coverage)[cell][axis]) : 0;
+  }
+  /// What one of several bodies fills of the cells on both sides of a face; 0 if it is alone.
+  double volumeOf(std::size_t body, const Index<D>& cell, int axis) const {
+    const auto& free = (*records_)[body].free;
+    const auto filled = [&](const Index<D>& at) { return free && free->box().contains(at) ? 1 - (*free)[at] : 0.0; };
+    return filled(cell) + filled(cell - Index<D>::unit(axis));
+  }
+
+  static constexpr std::size_t kFewBodies = 4;
 
   const Level* level_;
   const Records* records_;

@@ -22,6 +22,11 @@ inline constexpr CellLabel<double> unfilledVolume{"c.unfilledVolume", "1",
                                                   "fraction of the cell that bodies do not fill, including holes"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the lower faces that bodies cover"};
+/// Labels of each body if there are several.
+inline constexpr CellLabel<double> freeOfBody{"c.freeOfBody", "1", "fraction of the cell that the body does not fill"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> coverageOfBody{"c.coverageOfBody", "1",
+                                                  "fraction of the lower faces that the body covers"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
     "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};
@@ -121,6 +126,16 @@ inline constexpr CellLabel<Vec<D>> recoil{
     "c.recoil", "Pa", "pressure of new gas on walls at the lower faces; negative where the gas is above"};
 inline constexpr CellLabel<double> burnRateWithin{
     "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a remnant of a body, per cell volume"};
+/// Labels of surfaces that burn by Unsteady_Burn.
+inline constexpr CellLabel<double> surfaceTemperatureBefore{"c.surfaceTemperatureBefore", "K",
+                                                            "temperature of the burning surface before the step"};
+inline constexpr CellLabel<double> surfaceGradientBefore{
+    "c.surfaceGradientBefore", "K/m", "temperature gradient below the burning surface before the step"};
+inline constexpr CellLabel<double> surfaceTemperature{"c.surfaceTemperature", "K",
+                                                      "temperature of the burning surface; 0 where nothing burns"};
+inline constexpr CellLabel<double> surfaceGradient{
+    "c.surfaceGradient", "K/m", "temperature gradient below the burning surface; 0 where nothing burns"};
+inline constexpr CellLabel<double> unsteadyRate{"c.unsteadyRate", "kg/(m^2 s)", "rate at which the surface burns"};
 /// Labels of a body with cracks that burns.
 inline constexpr CellLabel<double> bodyPressure{"c.bodyPressure", "Pa", "mean pressure of the burning body"};
 inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of the widest cracks of the burning body"};
@@ -140,6 +155,10 @@ using namespace mpm::solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
                                                 "edges of the box that represents the particle, in cells"};
+inline constexpr ParticleLabel<double> surfaceTemperature{
+    "p.surfaceTemperature", "K", "temperature of the burning surface in the particle's cell; 0 where nothing burns"};
+inline constexpr ParticleLabel<double> surfaceGradient{
+    "p.surfaceGradient", "K/m", "temperature gradient below that surface; 0 where nothing burns"};
 inline constexpr ParticleLabel<double> unburned{"p.unburned", "1", "remaining fraction of the particle's initial mass"};
 }  // namespace p
 namespace g {

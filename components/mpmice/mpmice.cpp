@@ -3,6 +3,7 @@
 #include "components/ice/tasks/carry_scalar.hpp"
 #include "components/mpmice/burn/burn_modes.hpp"
 #include "components/mpmice/burn/gas_of_burning.hpp"
+#include "components/mpmice/burn/unsteady_surface.hpp"
 #include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/add_gravity.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
@@ -76,6 +77,8 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   if (burns()) {
     tasks.perMaterial("mpmice::startUnburned", startUnburned, materials, requiresNew(p::mass), computes(p::unburned));
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(c::burntSinceStart));
+    if (isUnsteady())
+      tasks.perMaterial("mpmice::startSurface", startSurface, materials, requiresNew(p::mass), all<NewSurface>());
     if (waitsForFlames())
       tasks.perPatch("mpmice::startBurnModes", startBurnModes<D>, computes(c::burnMode), computes(c::waited),
                      computes(c::inductionTime));
@@ -88,46 +91,27 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
 template <int D>
 void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials,
                                   const ParticleLabel<double>& state) const {
+  if (materials.size() > 1)
+    tasks.perMaterial("mpmice::measureBody", measureBody<D>, materials, all<Boxes<D>>(readsOld), all<FreeOfBody<D>>());
   if (burns()) scheduleBurning(tasks, materials, state);
   if (settings_.implicit)
     schedulePressure(tasks, materials);
   else
     tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
-                          withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})), requiresNew(g::record, 1),
-                          withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
+                          withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
+                          all<BodyAtFaces<D>>(1, materials.size() > 1), withoutMaterial(all<Blowing<D>>(burns())),
+                          withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
     tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
-                          requiresNew(g::record, 1), withoutMaterial(computes(c::wallFriction<D>)));
+                          all<BodyAtFaces<D>>(1, materials.size() > 1), withoutMaterial(computes(c::wallFriction<D>)));
   tasks.acrossMaterials(
       "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
       withoutMaterial(
           gasIn(readsOld, {.state = isViscous() && settings_.diffusion.varies() ? 2 : 0, .mass = 3, .room = 3})),
-      withoutMaterial(all<KnownWalls<D>>(2, isViscous())), requiresNew(g::record, isViscous() ? 3 : 2),
-      computes(total::forceOnBodies), computes(g::surroundingForce<D>));
-}
-
-/// Adds the tasks that find the mass that burns in the step, given the state at its start.
-template <int D>
-void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
-                                   const ParticleLabel<double>& state) const {
-  constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 3, .room = 3};
-  tasks.acrossMaterials("mpmice::measureReactant", measureReactant<D>, materials, with(settings_),
-                        all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
-  if (hasCracks()) {
-    tasks.acrossMaterials("mpmice::measureLoad", measureLoad<D>, materials, with(settings_), with(state.components),
-                          all<StressedParticles>(keepsStress(materials[settings_.burning->body]),
-                                                 settings_.burning->model.ddt()->burnsCracks, &state),
-                          withoutMaterial(computes(c::bodyPressure)), withoutMaterial(computes(c::crackRadius)));
-    tasks.perPatch("mpmice::findBurnModes", findBurnModes<D>, with(settings_), requiresOld(delT),
-                   gasIn(readsOld, reach), all<Reactant>(1), all<Load>(1), all<Waited>(waitsForFlames()),
-                   all<NewBurnModes>());
-  }
-  tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_), gasIn(readsOld, reach), all<Reactant>(1),
-                 all<KnownModes>(hasCracks(), 1), all<NewBurning<D>>());
-  tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_), startTime(), requiresOld(delT),
-                 requiresNew(c::burnRate<D>, 2), requiresNew(c::burnRateWithin, 1), requiresNew(c::reactantMass, 1),
-                 computes(c::burntShare));
+      withoutMaterial(all<KnownWalls<D>>(2, isViscous())),
+      all<BodyAtFaces<D>>(isViscous() ? 3 : 2, materials.size() > 1), computes(total::forceOnBodies),
+      computes(g::surroundingForce<D>));
 }
 
 /// Adds the tasks for the pressure at the end of the step, including the pressure on walls.
@@ -137,13 +121,13 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
   const auto gas = gasIn(readsOld, reach);
   tasks.perPatch("mpmice::takeGasAlone", takeGasAlone<D>, with(settings_), gas, all<NewGasAlone<D>>());
   tasks.acrossMaterials("mpmice::findWallSpeeds", findWallSpeeds<D>, materials, with(settings_), withoutMaterial(gas),
-                        requiresNew(g::record, 1), withoutMaterial(all<NewWallSpeeds<D>>()));
+                        all<BodyAtFaces<D>>(1, materials.size() > 1), withoutMaterial(all<NewWallSpeeds<D>>()));
   tasks.perRank("mpmice::solvePressure", solvePressureBeside<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
                 all<GasAlone<D>>(2), gas, all<WallSpeeds<D>>(), requiresOld(c::pressureAtEnd),
                 all<ice::PressureViews>(), totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
-                        withoutMaterial(gas), requiresNew(g::record, 1), withoutMaterial(requiresNew(c::pressureAtEnd)),
-                        withoutMaterial(all<WallPressures<D>>()));
+                        withoutMaterial(gas), all<BodyAtFaces<D>>(1, materials.size() > 1),
+                        withoutMaterial(requiresNew(c::pressureAtEnd)), withoutMaterial(all<WallPressures<D>>()));
 }
 
 /// Adds the tasks for the volume that bodies fill at the end of the step, and the volume that they swept.
@@ -167,16 +151,17 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (settings_.implicit)
     tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(all<GasInStep<D>>()),
-                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 2),
+                          withoutMaterial(all<BodiesInStep<D>>(isViscous())),
+                          all<BodyAtFaces<D>>(2, materials.size() > 1),
                           withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size(), keepsMasses)),
                           withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   else
-    tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials,
-                          with(settings_), requiresOld(delT),
-                          withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
-                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 2),
-                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size(), keepsMasses)),
-                          withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
+    tasks.acrossMaterials(
+        "mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials, with(settings_),
+        requiresOld(delT), withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
+        withoutMaterial(all<BodiesInStep<D>>(isViscous())), all<BodyAtFaces<D>>(2, materials.size() > 1),
+        withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size(), keepsMasses)),
+        withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   carryScalars(tasks);
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::addDiffusion", settings_.diffusion.varies() ? addVaryingDiffusion<D> : addDiffusion<D>,

@@ -48,6 +48,7 @@ class GasAround : public mpm::solid::Surroundings {
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
   bool hasCracks() const { return burns() && settings_.burning->model.ddt(); }
+  bool isUnsteady() const { return burns() && settings_.burning->model.unsteady(); }
   /// Whether the burning body has strain energy, which must be added to the gas.
   bool keepsStrain(const Materials& materials) const;
   void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;

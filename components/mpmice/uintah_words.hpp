@@ -11,6 +11,10 @@ inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"
                                                  {"vol_frac_CC", "c.freeVolume"},
                                                  {"totalMassBurned", "BurntMass"},
                                                  {"totalHeatReleased", "ReactionHeat"},
+                                                 {"UnsteadyBurn.SurfTemp", "c.surfaceTemperature"},
+                                                 {"UnsteadyBurn.SurfTempGrad", "c.surfaceGradient"},
+                                                 {"UnsteadyBurn.PartSurfTemp", "p.surfaceTemperature"},
+                                                 {"UnsteadyBurn.PartSurfTempGrad", "p.surfaceGradient"},
                                                  {"p.mass+", "p.mass"},
                                                  {"p.volume+", "p.volume"},
                                                  {"p.velocity+", "p.velocity"},
@@ -36,6 +40,7 @@ inline const std::vector<std::string> uintahsLabels{"Tdot",
                                                     "countTime",
                                                     "SteadyBurn.numPPC",
                                                     "SteadyBurn.BurningCell",
+                                                    "UnsteadyBurn.BurningCell",
                                                     "totalMassExchanged",
                                                     "totalIntEngExchanged"};
 

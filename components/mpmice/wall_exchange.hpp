@@ -142,12 +142,14 @@ class WallExchange {
   }
 
   /// The volume of gas, per cell volume, that follows walls up through the lower face of a cell. It is the volume that
-  /// the covered fraction of the face would sweep, minus the volume that bodies swept. Walls move with the bodies that
-  /// move through the face; if none does, with the velocity of the nodes.
+  /// the covered fraction of the face would sweep, minus the volume that bodies swept; where bodies overlap, each has
+  /// swept what it covers. Walls move with the bodies that move through the face; if none does, with the velocity of
+  /// the nodes.
   double followingUp(const Index<D>& above, int axis, double wallVelocity) const {
+    const double covered = std::max(1 - space_.aperture(above, axis, 0), nodes_.coverageAt(above, axis));
     const double by = step_.sweptBy[above][axis];
     const double shift = by == c::notSwept ? wallVelocity * dt_ * level_.inverseSpacing(axis) : by;
-    return (1 - space_.aperture(above, axis, 0)) * shift - step_.swept[above][axis];
+    return covered * shift - step_.swept[above][axis];
   }
 
   /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and
@@ -159,9 +161,12 @@ class WallExchange {
     if (up == 0) return;
     const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
     if (isClosedPore(receiver)) return;
-    std::optional<Gift> gas = isFull(donor) ? passedBy(donor, axis) : givenBy(donor, receiver);
-    if (!gas) return;
-    if (isFull(receiver) && !isFull(donor))
+    std::optional<Gift> gas;
+    if (!space_.isEmpty(donor))
+      gas = givenBy(donor, receiver);
+    else if (!(gas = passedBy(donor, axis)))
+      return;
+    if (space_.isEmpty(receiver) && !space_.isEmpty(donor))
       gas->share *= passingAt(receiver).accepted(static_cast<std::size_t>(axis), step_.newFree[receiver]);
     if (!(gas->share > 0)) return;
     if (masses.below)
@@ -183,11 +188,8 @@ class WallExchange {
     double share = 1;
   };
 
-  /// Whether bodies fill a cell at the start of a step.
-  bool isFull(const Index<D>& cell) const { return space_.isEmpty(cell); }
-
-  /// The volumes, per cell volume, that follow walls into and out of a cell that bodies fill, along each axis, and what
-  /// it passes on. It passes on only gas that flows in along other axes, as where a hole moves around an edge. So no
+  /// The volumes, per cell volume, that follow walls into and out of a cell without gas, along each axis, and what it
+  /// passes on. It passes on only gas that flows in along other axes, as where a hole moves around an edge. So no
   /// gas passes straight through a body whose boxes do not move exactly as its walls do.
   struct Passing {
     using PerAxis = std::array<double, D>;
@@ -242,13 +244,13 @@ class WallExchange {
       const auto d = static_cast<std::size_t>(axis);
       if (volume < 0)
         volumes.out[d] -= volume;
-      else if (!isFull(neighbour))
+      else if (!space_.isEmpty(neighbour))
         volumes.in[d] += volume;
     });
     volumes.divide();
     return volumes;
   }
-  /// What a cell that bodies fill passes on along an axis.
+  /// What a cell without gas passes on along an axis.
   std::optional<Gift> passedBy(const Index<D>& cell, int axis) const {
     const Passing volumes = passingAt(cell);
     const auto d = static_cast<std::size_t>(axis);
@@ -257,71 +259,46 @@ class WallExchange {
     Parcel<D> mean;
     forEachFollowing(cell, [&](int along, const Index<D>& neighbour, double volume) {
       const auto e = static_cast<std::size_t>(along);
-      if (volume > 0 && volumes.through[e][d] > 0 && !isFull(neighbour))
+      if (volume > 0 && volumes.through[e][d] > 0 && !space_.isEmpty(neighbour))
         mean.add(cells_.parcel(neighbour), volume / volumes.in[e] * volumes.through[e][d] / passed);
     });
     return Gift{mean, passed / volumes.out[d]};
   }
 
-  /// What a donor can give. A donor that is mostly free, or that will be merged with such a neighbour, gives all that
-  /// is requested; if it has too little, the neighbour supplies the rest. Any other donor gives gas of the requested
-  /// density, but at most all that it has.
-  std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
-    const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
-    if (!wanted) return std::nullopt;
-    if (isBesideRoom(donor)) return Gift{*wanted};
+  /// What a donor with gas can give. One that is mostly free, or one that will be merged with such a neighbour,
+  /// gives all that is requested; if it has too little, the neighbour supplies the rest. Any other donor gives gas of
+  /// the requested density, but at most all that it has.
+  Gift givenBy(const Index<D>& donor, const Index<D>& receiver) const {
+    const Parcel<D> wanted = stateOf(donor, receiver);
+    if (isBesideRoom(donor)) return {wanted};
     const double mass = cells_.held.density[donor];
-    if (!(mass > 0)) return std::nullopt;
-    return Gift{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
+    return {cells_.contentOf(donor, wanted.u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
   }
   /// The mass that a donor would give through all its faces [kg/m³]. It is an upper estimate: it includes closed pores,
   /// which receive none.
   double massAskedOf(const Index<D>& donor) const {
     double mass = 0;
-    for (int d = 0; d < D; ++d)
-      for (int side = 0; side < 2; ++side) {
-        const Index<D> face = side == 0 ? donor : donor + Index<D>::unit(d);
-        if (space_.isAtSide(donor, d, side) || !mayFlow(face, d)) continue;
-        const double up = followingUp(face, d, nodes_.velocityAt(face, d, mpm::solid::lane::velocity)[d]);
-        const double out = side == 0 ? -up : up;
-        if (!(out > 0)) continue;
-        const std::optional<Parcel<D>> gas = stateOf(donor, side == 0 ? donor - Index<D>::unit(d) : face);
-        if (gas) mass += out * gas->u[euler::kDensity];
-      }
+    forEachFollowing(donor, [&](int, const Index<D>& neighbour, double volume) {
+      if (volume < 0) mass -= volume * stateOf(donor, neighbour).u[euler::kDensity];
+    });
     return (1 + roundOffOfShares) * mass;
   }
-  /// Whether a cell is mostly free after the step, or will be merged with such a neighbour, possibly across a corner.
+  /// Whether a cell contains gas and is mostly free after the step, or will be merged with such a neighbour, possibly
+  /// across a corner.
   bool isBesideRoom(const Index<D>& cell) const {
-    const auto hasRoom = [&](const Index<D>& at) {
-      return step_.newFree[at] >= smallFreeVolume && cells_.held.density[at] > 0;
-    };
-    bool any = hasRoom(cell);
-    if (!any) forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) { any |= hasRoom(at); });
+    const auto isFree = [&](const Index<D>& at) { return step_.newFree[at] >= smallFreeVolume; };
+    const auto hasGas = [&](const Index<D>& at) { return cells_.held.density[at] > 0; };
+    if (isFree(cell)) return hasGas(cell);
+    bool any = false;
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) { any |= isFree(at) && hasGas(at); });
     return any;
   }
 
-  /// The state of the gas that a donor gives. It is that of the donor's gas or, if the donor has none, that of the
-  /// receiver's gas; if the receiver has none either, it is the mean around the donor. If the donor has almost no free
-  /// volume, it is a blend of the donor's and the receiver's.
-  std::optional<Parcel<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
-    const double room = space_.isEmpty(donor) ? 0 : roomOf(cells_.free[donor]) / cells_.free[donor];
-    if (room == 1) return cells_.parcel(donor);
-    if (!space_.isEmpty(receiver)) return mixed(room, donor, receiver);
-    if (room > 0) return cells_.parcel(donor);
-    Parcel<D> sum;
-    int count = 0;
-    for (int d = 0; d < D; ++d)
-      for (int side = 0; side < 2; ++side) {
-        if (space_.isAtSide(donor, d, side)) continue;
-        const Index<D> next = side == 0 ? donor - Index<D>::unit(d) : donor + Index<D>::unit(d);
-        if (space_.isEmpty(next)) continue;
-        sum.add(cells_.parcel(next), 1);
-        ++count;
-      }
-    if (count == 0) return std::nullopt;
-    Parcel<D> mean;
-    mean.add(sum, 1.0 / count);
-    return mean;
+  /// The state of the gas that a donor gives: that of the donor or, if the donor has almost no free volume, a blend of
+  /// the donor's and the receiver's.
+  Parcel<D> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
+    const double room = roomOf(cells_.free[donor]) / cells_.free[donor];
+    return room == 1 || space_.isEmpty(receiver) ? cells_.parcel(donor) : mixed(room, donor, receiver);
   }
   /// `part` times the state of the cell `of`, plus 1 - `part` times the state of the cell `rest`.
   Parcel<D> mixed(double part, const Index<D>& of, const Index<D>& rest) const {

@@ -53,6 +53,17 @@ TEST(ControlVolFluxes, AtAnEndOfTheGridTheConditionOfTheSideCounts) {
   expectNear(flowOf(closed, all, {10, 0}), {mass, 0, 3 * area * 4, 0, 0, 0, 0});
 }
 
+TEST(ControlVolFluxes, AtAnEndOfTheGridTheConditionOfAPartCounts) {
+  const Box all{{{0, 0, 0}}, {{4, 3, 1}}};
+  const double mass = 3 * .1 * (1 + 2 + 3 + 4), face = .2;
+  const auto middle = grid::SidePart::rectangle(0, Vec3(2, .2, -1), Vec3(2, .4, 2));
+  const BoundaryLabel<Vec3> velocity("Velocity");
+  grid::Domain sides = domain();
+  sides.boundaries.face(0, 1).push_back({velocity, BoundaryKind::dirichlet, {3, 0, 0}});
+  sides.boundaries.parts[1] = {{middle, {{velocity, BoundaryKind::dirichlet, Vec3(7, 0, 0)}}}};
+  expectNear(flowOf(Level(sides), all, {10, 0}), {mass, 10 * 3 * face * 1, (3 + 7 + 3) * face * 4, 0, 0, 0, 0});
+}
+
 TEST(ControlVolFluxes, WhatSeveralPatchesHaveAddsUp) {
   BoxFlow all, part;
   part.mass.add(2);

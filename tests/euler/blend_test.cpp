@@ -29,6 +29,12 @@ Gas jwl() {
   return gasOf(cold, 0.35, 1000);
 }
 Gas air() { return {.gamma = 1.4, .specificHeat = 716}; }
+/// Products of an explosive, as molecules that are hard spheres.
+Gas spheres() {
+  return {.specificHeat = 716,
+          .law = std::make_shared<const Gas::Law>(
+              RealGas({.gasConstant = 0.3 * 716, .specificHeat = 716, .covolume = 7.84e-4}))};
+}
 
 using Masses = std::array<double, kMostGases>;
 
@@ -47,7 +53,8 @@ double energyOf(const std::vector<Gas>& gases, const std::vector<double>& shares
 }  // namespace
 
 TEST(Blend, FindsPressureAndTemperature) {
-  const std::vector<std::vector<Gas>> groups{{explosive(), jwlc(), air()}, {jwl(), air(), explosive()}};
+  const std::vector<std::vector<Gas>> groups{
+      {explosive(), jwlc(), air()}, {jwl(), air(), explosive()}, {spheres(), air(), explosive()}};
   for (const std::vector<Gas>& gases : groups)
     for (const double pressure : {2e4, 101325.0, 1e7, 5e9, 3e10})
       for (const double temperature : {200.0, 300.0, 4000.0})
@@ -64,8 +71,11 @@ TEST(Blend, FindsPressureAndTemperature) {
         }
 }
 
-TEST(Blend, HasTheSoundSpeedOfItsIsentrope) {
-  const std::vector<Gas> gases{explosive(), jwl(), air()};
+class BlendOf : public testing::TestWithParam<Gas> {};
+INSTANTIATE_TEST_SUITE_P(Products, BlendOf, testing::Values(jwl(), spheres()));
+
+TEST_P(BlendOf, HasTheSoundSpeedOfItsIsentrope) {
+  const std::vector<Gas> gases{explosive(), GetParam(), air()};
   const BlendLaws laws(gases);
   Masses masses{};
   const double energy = energyOf(gases, {0.4, 0.4, 0.2}, 3e8, 900, masses), step = 1e-5;
@@ -89,6 +99,19 @@ TEST(Blend, OfAirAloneIsAnIdealGas) {
   EXPECT_NEAR(law.softness, 2.5, 1e-13);
   EXPECT_NEAR(law.stiffness / energy, 0, 1e-14);
   EXPECT_NEAR(law.soundSpeedSquared(1.2, 0.4 * energy) / (1.4 * 0.4 * 716 * 300), 1, 1e-13);
+}
+
+TEST(Blend, OfHardSpheresAloneIsTheirLaw) {
+  const BlendLaws laws({spheres(), air()});
+  const Masses masses{400, 0, 0};
+  const double energy = 400 * 716 * 2000.0;
+  const Blend blend = laws.at(masses.data(), energy);
+  const Gas gas = spheres();
+  EXPECT_NEAR(blend.pressure / gas.pressure(400, energy), 1, 1e-13);
+  EXPECT_NEAR(blend.pressure / (0.3 * energy / (1 - 7.84e-4 * 400)), 1, 1e-13);
+  EXPECT_NEAR(blend.modulus / (400 * gas.soundSpeedSquared(400, gas.last(400, energy))), 1, 1e-13);
+  const Masses tooDense{1300, 0, 0};  // more than 1 / b
+  EXPECT_FALSE(laws.at(tooDense.data(), energy).isPossible);
 }
 
 TEST(Blend, OfALiquidInTensionHasAlmostNoPressure) {

@@ -1,5 +1,6 @@
 #include "components/mpmice/burn/burn_bodies.hpp"
 #include "components/mpmice/burn/burn_modes.hpp"
+#include "components/mpmice/burn/unsteady_surface.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
 #include "tests/mpmice/fields.hpp"
 
@@ -164,6 +165,54 @@ TEST(SteadyBurn, IsFasterUnderPressureAndWhereTheBodyIsWarm) {
   }
 }
 
+/// The explosive with delays of a steady state; its rate is not scaled.
+const ice::UnsteadyBurn slowExplosive{explosive, 0.2, 0.25, 1};
+
+TEST(UnsteadyBurn, IsSteadyAtFirstAndAtLast) {
+  const ice::AtSurface at{1e6, 298, 1832}, later{1.1e6, 298, 1832};
+  const ice::SurfaceHeat first = slowExplosive.after({}, 1e-6, at);
+  EXPECT_NEAR(slowExplosive.rateIn(first, at).value() / explosive.rate(at), 1, 1e-12);
+  const ice::SurfaceHeat last = slowExplosive.after(first, 1e6, later);
+  EXPECT_NEAR(slowExplosive.rateIn(last, later).value() / explosive.rate(later), 1, 1e-12);
+}
+
+TEST(UnsteadyBurn, RelaxesAsItsEquationsSay) {
+  const ice::AtSurface before{1e6, 298, 1832}, at{1.02e6, 298, 1832};
+  const ice::SurfaceHeat from = slowExplosive.steady(before), to = slowExplosive.steady(at);
+  const double m = explosive.rate(at), delay = 0.2 * explosive.solidConductivity * 1832 / (1400 * m * m);
+  EXPECT_NEAR(to.gradient / (m * 1400 * (to.temperature - 298) / explosive.solidConductivity), 1, 1e-12);
+  ice::SurfaceHeat state = from;
+  for (int k = 1; k <= 8; ++k) {
+    state = slowExplosive.after(state, 0.25 * delay, at);
+    EXPECT_NEAR((state.gradient - to.gradient) / (from.gradient - to.gradient), std::exp(-0.25 * k), 1e-9);
+    EXPECT_NEAR((state.temperature - to.temperature) / (from.temperature - to.temperature), std::exp(-k), 1e-9);
+    const double rate = slowExplosive.rateIn(state, at).value(), ts = state.temperature, r = explosive.gasConstant;
+    const double reaction = explosive.solidFactor * r * explosive.solidConductivity * 1832 * ts * ts *
+                            std::exp(-explosive.activationEnergy / (r * ts)) / explosive.activationEnergy;
+    const double flow = explosive.solidConductivity * state.gradient * rate;
+    EXPECT_NEAR((0.5 * explosive.solidHeat * rate * rate + reaction) / flow, 1, 1e-12);
+    EXPECT_GT(rate, m) << "the temperature rises before the gradient";
+  }
+}
+
+TEST(UnsteadyBurn, HasNoRateWhereTheGradientIsTooSmall) {
+  const ice::AtSurface at{1e6, 298, 1832};
+  ice::SurfaceHeat state = slowExplosive.steady(at);
+  state.gradient *= 0.1;
+  EXPECT_FALSE(slowExplosive.rateIn(state, at));
+}
+
+TEST(UnsteadyBurn, ScalesItsDeviationFromTheSteadyRate) {
+  const ice::AtSurface at{1e6, 298, 1832};
+  ice::SurfaceHeat state = slowExplosive.steady(at);
+  state.gradient *= 1.1;
+  ice::UnsteadyBurn scaled = slowExplosive;
+  scaled.exponent = 2;
+  const double m = explosive.rate(at), ratio = slowExplosive.rateIn(state, at).value() / m;
+  EXPECT_NE(ratio, 1);
+  EXPECT_NEAR(scaled.rateIn(state, at).value() / (m * ratio * ratio), 1, 1e-12);
+}
+
 TEST(Induction, IsShorterIntoTheBodyThanAlongItsSurface) {
   const ice::Induction law{0.01, 1e5, 0.0026, 0.5};
   EXPECT_NEAR(law.part(1), 0.01, 1e-15);
@@ -209,6 +258,46 @@ struct Explosive {
     return BurnModes<1>(level, settings, fields.gas(), reactant, load).find({cell}, before, dt);
   }
 };
+
+/// The same line with an explosive whose surface remembers how it burned.
+struct Remembering : Explosive {
+  Field<double> temperatureBefore{mass}, gradientBefore{mass};
+
+  Remembering() {
+    temperatureBefore.values.assign(6, 0);
+    gradientBefore.values.assign(6, 0);
+    settings.burning->model.law = ice::UnsteadyBurn{{1, 0.03, 5, 0.08, 0.2, 1.8, 0.01, 0.01, 1, 1}, 0.01, 0.25, 1};
+  }
+  UnsteadySurface<1>::Found at(int cell, double dt = 0.1) {
+    const Reactant reactant{{mass.seen(), volume.seen(), temperature.seen(), others.seen(), hottest.seen()}};
+    const SurfaceBefore before{temperatureBefore.seen(), gradientBefore.seen()};
+    return UnsteadySurface<1>(level, settings, fields.gas(), reactant, before).find({cell}, dt);
+  }
+  ice::SurfaceHeat steadyState() const { return settings.burning->model.unsteady()->steady({1, 1, 5}); }
+};
+
+TEST(UnsteadySurface, IsWhereABodyMeetsAHotGas) {
+  Remembering line;
+  const ice::SurfaceHeat steady = line.steadyState();
+  EXPECT_EQ(line.at(1).rate, 0) << "no explosive";
+  EXPECT_EQ(line.at(3).rate, 0) << "inside";
+  EXPECT_DOUBLE_EQ(line.at(2).state.temperature, steady.temperature);
+  EXPECT_DOUBLE_EQ(line.at(2).rate, line.settings.burning->model.rate({1, 1, 5}));
+  line.settings.burning->model.ignitionTemperature = 3;
+  EXPECT_EQ(line.at(2).rate, 0);
+  EXPECT_FALSE(line.at(2).state.burns());
+}
+
+TEST(UnsteadySurface, ContinuesWithItsStateOrThatOfItsNeighbours) {
+  Remembering line;
+  const ice::SurfaceHeat steady = line.steadyState();
+  line.temperatureBefore.values[3] = steady.temperature;
+  line.gradientBefore.values[3] = 1.1 * steady.gradient;
+  EXPECT_NEAR(line.at(2, 1e-9).state.gradient, 1.1 * steady.gradient, 1e-7 * steady.gradient);
+  line.temperatureBefore.values[2] = steady.temperature;
+  line.gradientBefore.values[2] = 0.95 * steady.gradient;
+  EXPECT_NEAR(line.at(2, 1e-9).state.gradient, 0.95 * steady.gradient, 1e-7 * steady.gradient);
+}
 
 TEST(BurnModes, OfASurfaceNeedAHotGasWithPressure) {
   Explosive line;

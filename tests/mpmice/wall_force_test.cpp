@@ -42,7 +42,7 @@ struct Walled {
   const Level& level() const { return grid.level(); }
   typename BodiesAtNodes<D>::Records seen() const {
     typename BodiesAtNodes<D>::Records views;
-    for (const auto& field : records) views.push_back(field.seenNodes());
+    for (const auto& field : records) views.push_back({field.seenNodes()});
     return views;
   }
 
@@ -81,11 +81,60 @@ TYPED_TEST(WallForceAlongAxes, SeesTheVelocityAndTheMassOfAllBodiesAtAFace) {
   EXPECT_EQ(bodies.velocityAt(Index<D>::filled(0), 0, lane::velocity), Vec<D>(Vec<D>::Zero()));
   double mass = 0;
   forEach<D>(bodies.nodesAt(face, 0), [&](const Index<D>& node) {
-    for (const auto& records : views) mass += records[node][lane::mass];
+    for (const auto& body : views) mass += body.records[node][lane::mass];
   });
   EXPECT_DOUBLE_EQ(bodies.massAt(face, 0), mass);
   EXPECT_EQ(bodies.nodesAt(face, 0).size(), 3 * std::pow(2, D - 1));
   EXPECT_EQ(bodies.nodesAt(Index<D>::filled(0), 0).size(), 2 * std::pow(2, D - 1)) << "at the side of the grid";
+}
+
+TYPED_TEST(WallForceAlongAxes, BelongsToTheBodiesThatCoverTheFace) {
+  constexpr int D = TypeParam::value;
+  Walled<D> walled;
+  std::vector<Field<double>> free;
+  std::vector<Field<Vec<D>>> coverage;
+  for (int m = 0; m < 2; ++m) {
+    free.emplace_back(walled.level().cells(), 1);
+    coverage.emplace_back(walled.level().cells(), Vec<D>::Zero());
+    for (NodeRecord& one : walled.records[m].values) {
+      one[lane::mass] *= m == 1 ? 100 : 1;
+      mpm::solid::setLanes<D>(one, lane::velocity, Vec<D>::Constant(m == 1 ? -8 : 0.7));
+    }
+  }
+  const Index<D> face = Index<D>::filled(2);
+  const auto views = [&] {
+    auto views = walled.seen();
+    for (int m = 0; m < 2; ++m) {
+      views[m].free = free[m].seen();
+      views[m].coverage = coverage[m].seen();
+    }
+    return views;
+  };
+  const auto velocity = [&] {
+    const auto seen = views();
+    return BodiesAtNodes<D>(walled.level(), seen).velocityAt(face, 0, lane::velocity)[0];
+  };
+  EXPECT_LT(velocity(), -7) << "by mass, if neither is there";
+  free[0].cells()[face] = 0.5;
+  EXPECT_NEAR(velocity(), 0.7, 1e-14) << "the first is beside the face, the heavy one only near it";
+  coverage[0].cells()[face][0] = 0.5;
+  free[1].cells()[face - Index<D>::unit(0)] = 0.5;
+  EXPECT_NEAR(velocity(), 0.7, 1e-14) << "the heavy one is beside the face, but does not cover it";
+  coverage[1].cells()[face][0] = 0.5;
+  EXPECT_NEAR(velocity(), 0.5 * (0.7 - 8), 1e-13);
+
+  const auto seen = views();
+  const BodiesAtNodes<D> bodies(walled.level(), seen);
+  EXPECT_EQ(bodies.coverageAt(face, 0), 1);
+  std::array<double, 2> shares{};
+  double perMass = 0;
+  bodies.distribute(face, 0, [&](std::size_t body, const Index<D>& node, double share) {
+    shares[body] += share;
+    perMass += share * share / seen[body].records[node][lane::mass];
+  });
+  EXPECT_NEAR(shares[0], 0.5, 1e-14);
+  EXPECT_NEAR(shares[1], 0.5, 1e-14);
+  EXPECT_NEAR(bodies.massAt(face, 0) * perMass, 1, 1e-13) << "acceleration of velocityAt";
 }
 
 TYPED_TEST(WallForceAlongAxes, IsNoneInAUniformGasThatMovesWithTheBody) {

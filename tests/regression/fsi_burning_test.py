@@ -13,7 +13,7 @@ from same_bits import SameBitsTest
 from solids import RefusedSceneTest, SceneTest, globals_of
 from sus import run
 
-SLAB, GRAIN = (fsi.scene(name).read_text() for name in ("burning_slab", "burning_grain"))
+SLAB, GRAIN, VESSEL = (fsi.scene(name).read_text() for name in ("burning_slab", "burning_grain", "burning_vessel"))
 RIGID = ("SimulationComponent/@type=rmpmice",)
 GONE = ("Models/Model/Simple_Burn/BurnCoeff=4", "Time/maxTime=3", "Grid/Level/Box/resolution=[20,20,1]",
         "Grid/Level/Box/upper=[1,1,0.05]")
@@ -76,20 +76,58 @@ STEADY = {"IdealGasConst": 1, "PreExpCondPh": .03, "ActEnergyCondPh": 5, "PreExp
           "MoleWeightGasPh": 1}
 
 
-def steady_rate(pressure, temperature, density):
-    """Returns the rate that satisfies both equations of Ward, Son and Brewster."""
-    gas, factor, energy, far, low, high, k_gas, k, c, molar = STEADY.values()
+def reaction(surface, density):
+    """Returns m^2 c (T_s - T_0 - Q_c / (2 c)) of a steady deflagration."""
+    gas, factor, energy, k = (STEADY[name] for name in ("IdealGasConst", "PreExpCondPh", "ActEnergyCondPh",
+                                                        "HeatConductCondPh"))
+    return factor * gas * k * density * surface ** 2 * math.exp(-energy / (gas * surface)) / energy
+
+
+def steady(pressure, temperature, density):
+    """Returns surface temperature and rate that satisfy both equations of Ward, Son and Brewster."""
+    gas, _, _, far, low, high, k_gas, _, c, molar = STEADY.values()
 
     def rate(surface):
-        reaction = factor * gas * k * density * surface ** 2 * math.exp(-energy / (gas * surface))
-        return math.sqrt(reaction / (energy * c * (surface - temperature - low / (2 * c))))
+        return math.sqrt(reaction(surface, density) / (c * (surface - temperature - low / (2 * c))))
 
     def excess(surface):
         m = rate(surface)
         x = 2 * k_gas / (c * (math.sqrt(m * m + 4 * k_gas * far * (molar * pressure) ** 2 / (c * gas ** 2)) - m))
         return surface - temperature - low / c - high / c / (1 + x * m * c / k_gas)
 
-    return rate(brentq(excess, temperature + low / c + 1e-9, temperature + (low + high) / c, xtol=1e-14))
+    surface = brentq(excess, temperature + low / c + 1e-9, temperature + (low + high) / c, xtol=1e-14)
+    return surface, rate(surface)
+
+
+UNSTEADY = STEADY | {"CondUnsteadyCoef": .01, "GasUnsteadyCoef": .25, "BurnrateModCoef": 1}
+
+
+def burnt_unsteadily(time, steps=4000):
+    """Returns the mass that has burned in burning_vessel [kg], by the equations of UnsteadyBurn in
+    components/ice/burn_model.hpp."""
+    k, c, low, high = (STEADY[name] for name in ("HeatConductCondPh", "SpecificHeatBoth", "CondPhaseHeat",
+                                                 "GasPhaseHeat"))
+    temperature, density, dt = 1, 20, time / steps
+    surface, m = steady(1, temperature, density)
+    gradient, burnt = m * c * (surface - temperature) / k, 0
+    for _ in range(steps):
+        pressure = .4 * (1.25 + (low + high + c * temperature) * burnt) / (.5 + burnt / density)
+        hot, m = steady(pressure, temperature, density)
+        steep, delay = m * c * (hot - temperature) / k, UNSTEADY["CondUnsteadyCoef"] * k * density / (c * m * m)
+        gradient = steep + (gradient - steep) * math.exp(-dt / delay)
+        surface = hot + (surface - hot) * math.exp(-dt / (UNSTEADY["GasUnsteadyCoef"] * delay))
+        flow, reacts = k * gradient, reaction(surface, density)
+        burnt += dt * 2 * reacts / (flow + math.sqrt(flow * flow - 2 * low * reacts))
+    return burnt
+
+
+def with_model(text, name, tags):
+    """Returns the scene with another burn model."""
+    start, end = text.index("<Model type"), text.index("</Models>")
+    numbers = "".join(f"<{tag}>{value}</{tag}>" for tag, value in tags.items())
+    return (f'{text[:start]}<Model type="{name}"><{name}><fromMaterial>reactant</fromMaterial>'
+            f"<toMaterial>product</toMaterial>{numbers}<ThresholdPressure>0.1</ThresholdPressure>"
+            f"<IgnitionTemp>0.5</IgnitionTemp></{name}></Model>{text[end:]}")
 
 
 class Ignition(SceneTest):
@@ -110,18 +148,38 @@ class Ignition(SceneTest):
         self.assertGreater(burnt[-1][1], .01)
 
     def test_of_a_steady_deflagration_is_as_fast_as_its_source_says(self):
-        tags = "".join(f"<{name}>{value}</{name}>" for name, value in STEADY.items())
-        start, end = SLAB.index("<Model type"), SLAB.index("</Models>")
-        text = (f'{SLAB[:start]}<Model type="Steady_Burn"><Steady_Burn><fromMaterial>reactant</fromMaterial>'
-                f"<toMaterial>product</toMaterial>{tags}<ThresholdPressure>0.1</ThresholdPressure>"
-                f"<IgnitionTemp>0.5</IgnitionTemp></Steady_Burn></Model>{SLAB[end:]}")
-        rows = self.burnt(text, "Time/maxTime=40")
+        rows = self.burnt(with_model(SLAB, "Steady_Burn", STEADY), "Time/maxTime=40")
         half = next(row for row in rows if row[0] > 20)
         rate = (rows[-1][1] - half[1]) / (rows[-1][0] - half[0])
-        self.assertAlmostEqual(rate / steady_rate(1, 1, 20), 1, delta=2e-3)
+        self.assertAlmostEqual(rate / steady(1, 1, 20)[1], 1, delta=2e-3)
 
 
-class Bits(SameBitsTest):
+class Unsteady(SceneTest):
+    def burnt(self, text, model, tags, time):
+        scene = self.scene(with_model(text, model, tags))
+        return globals_of(scene, "BurntMass", sets=(f"Time/maxTime={time}",))["BurntMass"][-1][1]
+
+    def test_burning_at_constant_pressure_is_steady(self):
+        still = self.burnt(SLAB, "Steady_Burn", STEADY, 40)
+        self.assertAlmostEqual(self.burnt(SLAB, "Unsteady_Burn", UNSTEADY, 40) / still, 1, delta=2e-4)
+
+    def test_burning_overshoots_where_the_pressure_rises(self):
+        mass = self.burnt(VESSEL, "Unsteady_Burn", UNSTEADY, 20)
+        self.assertAlmostEqual(mass / burnt_unsteadily(20), 1, delta=2e-3)
+        self.assertGreater(mass / self.burnt(VESSEL, "Steady_Burn", STEADY, 20), 1.04)
+
+    def test_burning_of_a_grain_keeps_mass_and_energy(self):
+        names = ("TotalMass", "GasEnergy", "ThermalEnergy", "ReactionHeat", "BurntMass")
+        totals = globals_of(self.scene(with_model(GRAIN, "Unsteady_Burn", UNSTEADY)), *names,
+                            sets=(*RIGID, "Time/maxTime=.5", *fsi.resolution("burning_grain", 25)))
+        self.assertGreater(totals["BurntMass"][-1][1], 1e-4)
+        first, last = ({name: totals[name][k][1] for name in names} for k in (0, -1))
+        self.assertAlmostEqual(last["TotalMass"] / first["TotalMass"], 1, delta=1e-14)
+        energies = [one["GasEnergy"] + one["ThermalEnergy"] - one["ReactionHeat"] for one in (first, last)]
+        self.assertAlmostEqual(energies[1] / energies[0], 1, delta=1e-14)
+
+
+class Bits(SameBitsTest, SceneTest):
     def test_are_the_same_on_a_line(self):
         self.assert_same("burning_slab", 400, ("[1,1,1]", "[7,1,1]", "[50,1,1]"),
                          "Models/Model/Simple_Burn/BurnCoeff=10", ranks=1)
@@ -129,6 +187,10 @@ class Bits(SameBitsTest):
     def test_are_the_same_in_a_plane(self):
         self.assert_same("burning_grain", 60, ("[1,1,1]", "[5,3,1]", "[20,4,1]"),
                          "Models/Model/Simple_Burn/BurnCoeff=10", ranks=3)
+
+    def test_are_the_same_where_surfaces_remember(self):
+        grain = self.scene(with_model(GRAIN, "Unsteady_Burn", UNSTEADY | {"PreExpCondPh": .3}))
+        self.assert_same(grain, 60, ("[1,1,1]", "[5,3,1]", "[20,4,1]"), ranks=3)
 
 
 class WrongScenes(RefusedSceneTest):

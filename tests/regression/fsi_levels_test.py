@@ -90,15 +90,79 @@ class Shares(SceneTest):
         self.assertLess(max(abs(one - 1) for one in sums), 1e-12)
 
 
+SPHERES = '<EOS type="hard_sphere_gas"><b>0.3</b></EOS>'
+# Two gases with one temperature and one pressure that move alike with a body; one is of hard spheres.
+QUIET = changed(GASES.replace('<EOS type="ideal_gas"/>', SPHERES, 1), ("<density>1<", "<density>1/1.3<"),
+                ("<density>0.1<", "<density>1<"), ("<temperature>10<", "<temperature>1<"),
+                ("<heat>[0, 0, 0]", "<heat>[0, 0, 1e15]"), ("<velocity>[1,0,0]", "<velocity>[0.2,0,0]"),
+                ("</constitutive_model>", "</constitutive_model><specific_heat>1</specific_heat>"))
+COARSE = "Grid/Level/Box/resolution=[80,1,1]"
+
+
+def burning_grain():
+    """Returns a grain that burns between two gases, one of hard spheres, on two levels, and its overrides."""
+    text = fsi.scene("burning_grain").read_text()
+    start = text.index('<material name="product"')
+    text = text[:start] + text[start:].replace('<EOS type="ideal_gas"/>', SPHERES, 1)
+    return refined(changed(text, ("<heat>[0,0,0]", "<heat>[0,0,1e15]"))), (
+        "SimulationComponent/@type=rmpmice", *fsi.resolution("burning_grain", 32),
+        "Models/Model/Simple_Burn/BurnCoeff=1")
+
+
+class OwnLaws(SceneTest):
+    """Gases with laws of their own beside bodies, on several levels."""
+
+    def test_leave_what_moves_alike_as_it_is(self):
+        names = ("c.pressure", "c.velocity", "c.temperature", "c.density", "c.freeVolume")
+        for text, sets in ((QUIET, ()), (refined(QUIET), (COARSE,))):
+            scene = self.scene(also(text, *names))
+            found = columns(archive_of(scene, scene.parent, *sets), *names)
+            held = zip(found["c.freeVolume [1]"], found["c.density [kg/m^3]"])
+            gas = [k for k, (free, mass) in enumerate(held) if free >= 1e-9 and mass > 0]
+            self.assertGreater(len(gas), 80)
+            for column, value in (("c.pressure [Pa]", 1), ("c.velocity.x [m/s]", .2), ("c.temperature [K]", 1)):
+                self.assertLess(max(abs(found[column][k] - value) for k in gas), 1e-11, column)
+
+    def assert_kept(self, text, masses, energies, *sets):
+        """Asserts that masses and the sum of energies are conserved; energies with a minus are subtracted."""
+        names = (*masses, *(name.lstrip("-") for name in energies))
+        totals = globals_of(self.scene(also(text, *names)), *names, sets=sets)
+        for name in masses:
+            start = totals[name][0][1]
+            self.assertLess(max(abs(row[1] / start - 1) for row in totals[name]), 1e-13, name)
+        parts = [[(-1 if name.startswith("-") else 1) * row[1] for row in totals[name.lstrip("-")]]
+                 for name in energies]
+        sums = [sum(row) for row in zip(*parts)]
+        self.assertLess(max(abs(one / sums[0] - 1) for one in sums), 1e-13)
+        return totals
+
+    def test_keep_masses_and_energy_in_waves(self):
+        text = changed(QUIET, LIGHT, ("<density>1<", "<density>3<"),
+                       ("<reference_pressure>1<", "<reference_pressure>0<"))
+        self.assert_kept(refined(text), ("TotalMass-air", "TotalMass-helium"), ("GasEnergy", "GasWorkOnBodies"), COARSE,
+                         "Time/maxTime=0.3")
+
+    def test_keep_masses_and_energy_around_a_burning_grain(self):
+        text, sets = burning_grain()
+        totals = self.assert_kept(text, ("TotalMass", "TotalMass-air"), ("GasEnergy", "ThermalEnergy", "-ReactionHeat"),
+                                  *sets, "Time/maxTime=0.1")
+        self.assertGreater(totals["ReactionHeat"][-1][1], .005)
+
+
 class Bits(SceneTest, FolderTest):
+    def test_are_the_same_with_gases_of_their_own_laws(self):
+        text, sets = burning_grain()
+        self.assert_same(self.scene(text), *sets, "Time/max_Timesteps=25", steps=25)
+
     def test_are_the_same_on_any_layout_and_after_a_restart(self):
-        scene = self.scene(refined(changed(DISC, *WAVES)))
-        sets = (*SIZE, "Time/max_Timesteps=12")
+        self.assert_same(self.scene(refined(changed(DISC, *WAVES))), *SIZE, "Time/max_Timesteps=12", steps=12)
+
+    def assert_same(self, scene, *sets, steps):
         expected = run(scene, *sets).report["fingerprint"]
         for options in (("-layout", "1x1x1"), ("-layout", "4x2x1", "-nthreads", "2")):
             self.assertEqual(run(scene, *sets, options=options).report["fingerprint"], expected, options)
         self.assertEqual(run(scene, *sets, ranks=2).report["fingerprint"], expected)
-        self.assertEqual(self.fingerprint_of_two_parts(scene, 12, *sets), expected)
+        self.assertEqual(self.fingerprint_of_two_parts(scene, steps, *sets), expected)
 
 
 if __name__ == "__main__":

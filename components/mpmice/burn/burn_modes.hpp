@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/constitutive/model.hpp"
-#include "components/mpmice/burn/burning_surface.hpp"
+#include "components/mpmice/burn/neighbourhood.hpp"
 
 namespace tushar::mpmice {
 
@@ -100,12 +100,10 @@ class BurnModes {
   BurnModes(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
             const Load& load)
       : level_(level),
-        settings_(settings),
         model_(settings.burning->model),
-        cells_(cells),
         reactant_(reactant),
         load_(load),
-        surface_(level, settings, cells) {}
+        around_(level, settings, cells, reactant) {}
 
   struct Found {
     BurnMode mode = BurnMode::none;
@@ -117,9 +115,9 @@ class BurnModes {
     if (!(reactant_.mass[cell] > 0)) return {};
     const double own = pressureOf(cell);
     if (own > model_.ddt()->detonationPressure) refuseDetonation(cell, own);
-    const Around around = lookAround(cell);
+    const auto around = around_.look(cell);
     const double pressure = std::max(own, around.product);
-    const bool isSurface = isExposed(cell);
+    const bool isSurface = around_.isExposed(cell, leastStep);
     const bool lights = isSurface && around.isHot && around.product > model_.leastPressure;
     const bool cracked = model_.ddt()->burnsCracks && ice::Ddt::enterCracks(pressure, load_.crackRadius[cell]) &&
                          pressure > model_.leastPressure;
@@ -129,6 +127,9 @@ class BurnModes {
   }
 
  private:
+  /// The step of the area at a face from which on the surface passes through it.
+  static constexpr double leastStep = 0.3;
+
   [[noreturn]] void refuseDetonation(const Index<D>& cell, double pressure) const {
     const Vec3 at = level_.expandPoint<D>(level_.cellCentre<D>(cell));
     throw NumericalError(
@@ -137,10 +138,6 @@ class BurnModes {
                     pressure, at[0], at[1], at[2]),
         "weaker confinement, or a shorter <maxTime>", "c.burnPressure", level_.cellNumber<D>(cell));
   }
-  struct Around {
-    double product = 0;  ///< pressure of the product gas [Pa]
-    bool isHot = false;
-  };
   struct Conditions {
     bool isSurface, lights, cracked, isHot;
     double pressure;
@@ -151,47 +148,10 @@ class BurnModes {
     BurnMode from = BurnMode::none;
   };
 
-  double gasPressure(const Index<D>& cell) const {
-    const euler::Gas law = lawAt<D>(settings_, cells_.held, cells_.free[cell], cell);
-    const euler::State<D> w = cells_.primitive(law, cell);
-    return law.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]);
-  }
   double pressureOf(const Index<D>& cell) const {
-    const double gas = cells_.isEmpty(cell) ? 0 : cells_.free[cell], body = reactant_.volume[cell];
+    const double gas = around_.freeVolume(cell), body = reactant_.volume[cell];
     if (!(gas + body > 0)) return 0;
-    return ((gas > 0 ? gas * gasPressure(cell) : 0) + body * load_.pressure[cell]) / (gas + body);
-  }
-  bool isHot(const Index<D>& cell) const {
-    double hottest = reactant_.hottest[cell];
-    if (!cells_.isEmpty(cell) && cells_.free[cell] > leastVisible)
-      hottest = std::max(hottest, gasTemperature<D>(settings_, cells_, cell));
-    return hottest > model_.ignitionTemperature;
-  }
-  template <class Visit>
-  void forEachAround(const Index<D>& cell, Visit&& visit) const {
-    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), visit);
-  }
-  Around lookAround(const Index<D>& cell) const {
-    Around found;
-    double most = 0;
-    forEachAround(cell, [&](const Index<D>& at) {
-      found.isHot = found.isHot || isHot(at);
-      if (cells_.isEmpty(at) || cells_.free[at] <= most) return;
-      most = cells_.free[at];
-      found.product = gasPressure(at);
-    });
-    return found;
-  }
-  /// Whether the surface of the body passes through a face of the cell: there, the areas of the cells on both sides
-  /// differ by more than 0.3 (see SurfaceAtFaces).
-  bool isExposed(const Index<D>& cell) const {
-    constexpr double least = 0.3;
-    for (int d = 0; d < D; ++d) {
-      if (!surface_.space().isAtSide(cell, d, 0) && std::abs(surface_.step(cell, d)) > least) return true;
-      if (!surface_.space().isAtSide(cell, d, 1) && std::abs(surface_.step(cell + Index<D>::unit(d), d)) > least)
-        return true;
-    }
-    return false;
+    return ((gas > 0 ? gas * around_.gasPressure(cell) : 0) + body * load_.pressure[cell]) / (gas + body);
   }
   static bool burns(BurnMode mode) { return mode == BurnMode::surface || mode == BurnMode::cracks; }
 
@@ -230,13 +190,13 @@ class BurnModes {
     const auto take = [&](double part, BurnMode from) {
       if (part < best.part) best = {part, from};
     };
-    forEachAround(cell, [&](const Index<D>& at) {
+    around_.forEachAround(cell, [&](const Index<D>& at) {
       const double part = law.part(at == cell ? 1 : cosineOf(cell, at));
-      if (now.lights && isHot(at)) take(part, BurnMode::surface);
+      if (now.lights && around_.isHot(at)) take(part, BurnMode::surface);
       if (!now.cracked || !burns(before.modeIn(at))) return;
       if (!now.isSurface)
         take(law.part(1), BurnMode::cracks);
-      else if (isHot(at))
+      else if (around_.isHot(at))
         take(part, before.modeIn(at));
     });
     return best;
@@ -245,16 +205,14 @@ class BurnModes {
   /// no normal.
   double cosineOf(const Index<D>& cell, const Index<D>& from) const {
     const Vec<D> way = level_.cellCentre<D>(cell) - level_.cellCentre<D>(from);
-    return std::abs(surface_.space().normal(cell).dot(way)) / way.norm();
+    return std::abs(around_.surface().space().normal(cell).dot(way)) / way.norm();
   }
 
   const Level& level_;
-  const Settings& settings_;
   const ice::BurnModel& model_;
-  GasInCells<D> cells_;
   const Reactant& reactant_;
   const Load& load_;
-  SurfaceAtFaces<D> surface_;
+  Neighbourhood<D> around_;
 };
 
 /// Determines how the cells of a patch burn.

@@ -62,13 +62,15 @@ class SurfaceAtFaces {
 /// The mode in which a cell of a body with cracks burns: c.burnMode.
 enum class BurnMode { none, surface, cracks, waiting };
 
-/// Views of how cells burn, and of the pressure at which they burn [Pa]; empty unless the body has cracks.
+/// Views of how cells burn, and of the pressure at which they burn [Pa], if the body has cracks; and of the rate at
+/// which surfaces burn [kg/(m² s)], if they have a state.
 struct KnownModes {
-  std::optional<CellView<const double>> mode, pressure;
+  std::optional<CellView<const double>> mode, pressure, rate;
 
-  static KnownModes from(auto& take, bool hasCracks, int ghost) {
+  static KnownModes from(auto& take, bool hasCracks, bool isUnsteady, int ghost) {
     return {.mode = take(when(hasCracks, requiresNew(c::burnMode, ghost))),
-            .pressure = take(when(hasCracks, requiresNew(c::burnPressure, ghost)))};
+            .pressure = take(when(hasCracks, requiresNew(c::burnPressure, ghost))),
+            .rate = take(when(isUnsteady, requiresNew(c::unsteadyRate, ghost)))};
   }
   template <int D>
   bool is(const Index<D>& cell, BurnMode one) const {
@@ -127,7 +129,7 @@ class BurningSurface {
     const Index<D>& main = reactant_.mass[body] > reactant_.mass[gas] ? body : gas;
     if (!modes_.allowSurface(main)) return;
     const double bodyDensity = reactant_.mass[main] / reactant_.volume[main];
-    const double rate = model.rate({pressure, reactant_.temperature[main], bodyDensity});
+    const double rate = rateIn(main, pressure);
     fresh.rate[above][axis] = rate * share * step * surface_.normalAlong(above, axis) * level_.inverseSpacing(axis);
     const double wall = surface_.space().faces(gas, axis).wall(step > 0 ? 1 : 0);
     if (!(wall > 0)) return;
@@ -150,9 +152,7 @@ class BurningSurface {
     if (!(pressure > model.leastPressure) || !(hottestAt(cell, cell) > model.ignitionTemperature)) return;
     double perWidth = 0;
     for (int d = 0; d < D; ++d) perWidth += level_.inverseSpacing(d) / D;
-    const double density = reactant_.mass[cell] / reactant_.volume[cell];
-    fresh.within[cell] =
-        perWidth * reactant_.shareIn(cell, cell) * model.rate({pressure, reactant_.temperature[cell], density});
+    fresh.within[cell] = perWidth * reactant_.shareIn(cell, cell) * rateIn(cell, pressure);
   }
 
   /// Adds the mass that burns in the cracks of a cell.
@@ -165,6 +165,12 @@ class BurningSurface {
   }
 
  private:
+  /// The rate at which the surface of a cell of the body burns [kg/(m² s)], given the pressure of the gas [Pa].
+  double rateIn(const Index<D>& cell, double pressure) const {
+    if (modes_.rate) return (*modes_.rate)[cell];
+    return settings_.burning->model.rate(
+        {pressure, reactant_.temperature[cell], reactant_.mass[cell] / reactant_.volume[cell]});
+  }
   /// Whether a body fills most of the area along an axis of a neighbouring cell.
   bool isBesideWall(const Index<D>& cell) const {
     bool is = false;

@@ -117,6 +117,23 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
   free.settle();
 }
 
+/// Views of what one of several bodies leaves free.
+template <int D>
+struct FreeOfBody : FreeShares<D> {
+  static FreeOfBody from(auto& take) { return {{take(computes(c::freeOfBody)), take(computes(c::coverageOfBody<D>))}}; }
+};
+
+/// Computes the fraction of cells that one of several bodies leaves free, and what it covers of faces, at the start of
+/// a step.
+template <int D>
+void measureBody(const Patch& patch, const mpm::solid::Material&, const Boxes<D>& boxes, const FreeOfBody<D>& free) {
+  free.clear();
+  forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
+    free.take(cell, boxes.of(frame, p));
+  });
+  free.settle();
+}
+
 /// Views of what moves through the lower faces of cells in a step: the volume of bodies, and the mean of their
 /// displacements, weighted by the volumes that boxes sweep.
 template <int D>

@@ -175,8 +175,8 @@ bool ownsFace(const Patch& patch, const Index<D>& cell, int axis) {
   return patch.cells().contains(isOnSide ? cell - Index<D>::unit(axis) : cell);
 }
 
-/// Distributes the force of the gas at each face [N] over the nodes of the face and their materials, in proportion to
-/// the masses there. Bodies that the gas cannot move receive no force.
+/// Distributes the force of the gas at each face [N] over the nodes of the face and the bodies (see BodiesAtNodes).
+/// Bodies that the gas cannot move receive no force.
 template <int D>
 void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                   const GasInCells<D>& cells, const KnownWalls<D>& walls,
@@ -193,13 +193,10 @@ void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, 
     Vec<D> force = Vec<D>::Zero();
     if (walls.friction) force = frictionAt<D>(level, settings, space, walls, cells, bodies, cell, axis);
     force[axis] += forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
-    const double mass = !force.isZero(0) ? bodies.massAt(cell, axis) : 0;
-    if (!(mass > 0)) return;
+    if (force.isZero(0) || !(bodies.massAt(cell, axis) > 0)) return;
     if (!settings.areRigid)
-      forEach<D>(bodies.nodesAt(cell, axis), [&](const Index<D>& node) {
-        for (std::size_t m = 0; m < forces.size(); ++m)
-          if (const double own = records[m][node][mpm::solid::lane::mass]; own > 0 && forces[m].box().contains(node))
-            forces[m][node] += force * (own / mass);
+      bodies.distribute(cell, axis, [&](std::size_t body, const Index<D>& node, double share) {
+        if (forces[body].box().contains(node)) forces[body][node] += force * share;
       });
     if (ownsFace<D>(patch, cell, axis)) total.add(level.expandDirection<D>(force));
   };

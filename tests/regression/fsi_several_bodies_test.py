@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Several bodies in a gas: a wall has the velocity of the bodies that form it; conservation and equal bits."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import gas_and_bodies as fsi
+from fsi_test import ConservationTest, changed, saving
+from same_bits import SameBitsTest
+from solids import SceneTest, archive_of, columns, globals_of
+
+PISTON, DISC = (fsi.scene(name).read_text() for name in ("moving_piston", "carried_disc"))
+CONTACT = "<contact><type>null</type></contact>"
+
+
+def with_second_body(text, first, second):
+    """Returns a scene whose body is replaced by two, each with changes to the original."""
+    start, end = text.index("<material name"), text.index("</MPM>\n    <ICE>")
+    body = text[start:end]
+    return changed(text[:start] + changed(body, *first) + changed(body, *second) + CONTACT + text[end:],
+                   ("[1e15]", "[0,1e15,1e15]"), ("<heat>[0]", "<heat>[0,0,0]"))
+
+
+# A light plate at rest, and a heavy piston that moves away behind it, less than a cell from the plate.
+PLATE = with_second_body(
+    PISTON, (("[1,0,0]</min><max>[1.2,1,1]", "[0.985,0,0]</min><max>[1,1,1]"), ('"piston"', '"plate"'),
+             (">1000</density>", ">10</density>"), ("<velocity>[1,0,0]</velocity>", "")),
+    (("[1,0,0]</min>", "[1.0075,0,0]</min>"),))
+# A light disc, and a heavy one that moves through it.
+DISCS = with_second_body(
+    saving(DISC, *ConservationTest.KEPT, "GasWorkOnBodies"), ((">1000<", ">10<"),),
+    ((">1000<", ">100<"), ('name="disc"', 'name="heavy"'), ('label="disc"', 'label="second"'),
+     ("[1,0.618,0]", "[-1,0.3,0]"), ("[0.5,0.5,", "[0.62,0.47,")))
+
+
+class Walls(SceneTest):
+    def test_of_a_plate_do_not_move_with_a_body_behind_it(self):
+        scene = self.scene(PLATE)
+        found = columns(archive_of(scene, scene.parent, "Time/maxTime=0.05"), "c.pressure")
+        left = [p for x, p in zip(found["x [m]"], found["c.pressure [Pa]"]) if x < .98]
+        self.assertLess(max(abs(p - 1) for p in left), 1e-12)
+
+
+class Conservation(ConservationTest):
+    SETS = (*fsi.resolution("carried_disc", 32), "Time/maxTime=0.1")
+
+    def test_of_two_discs_that_overlap(self):
+        self.assert_kept(DISCS, *self.SETS, elastic=True)
+        totals = globals_of(self.scene(DISCS), "GasEnergy", "GasWorkOnBodies", sets=self.SETS)
+        sums = [energy[1] + work[1] for energy, work in zip(*totals.values())]
+        self.assertLess(max(abs(one / sums[0] - 1) for one in sums), 1e-12)
+
+
+class Bits(SameBitsTest, SceneTest):
+    def test_are_the_same_around_two_discs(self):
+        self.assert_same(self.scene(DISCS), 40, ("[1,1,1]", "[5,3,1]", "[4,4,1]"),
+                         *fsi.resolution("carried_disc", 32), ranks=3)
+
+
+if __name__ == "__main__":
+    unittest.main()
