@@ -152,8 +152,8 @@ struct TensorShape {
 
     /// Constructs stencils for particles at x [m] in a cell, with their initial sizes [cells]; lanes without a particle
     /// repeat another one.
-    Stencils(const CellFrame<D>& frame, const Index<D>& cell, const std::array<Lanes, D>& x,
-             const std::array<Lanes, D>& size)
+    [[gnu::always_inline]] Stencils(const CellFrame<D>& frame, const Index<D>& cell, const std::array<Lanes, D>& x,
+                                    const std::array<Lanes, D>& size)
         : cell_(cell) {
       for (std::size_t d = 0; d < D; ++d) {
         const double origin = frame.origin[static_cast<int>(d)], inverse = frame.inverseSpacing[static_cast<int>(d)];

@@ -60,10 +60,10 @@ struct InOneCell {
       for (int d = 0; d < D; ++d) x[k][d] = level.nodePosition(d, cell[d]) + uniform(random) * level.spacing(d);
     }
   }
-  typename Shape::Stencils stencils(const Level& level) const {
+  auto stencils(const Level& level) const {
     std::array<Lanes, D> size;
     for (int d = 0; d < D; ++d) size[d] = extent.size[d];
-    return {CellFrame<D>(level, cell), cell, vectorsOf<D>(x.data(), count), size};
+    return typename Shape::Stencils(CellFrame<D>(level, cell), cell, vectorsOf<D>(x.data(), count), size);
   }
 };
 
