@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "components/analysis/sampling.hpp"
 #include "core/data/label.hpp"
@@ -99,8 +100,9 @@ class ParticleExtract : public Analysis {
     output::makeFolder(folder);
     const auto& color = std::get<std::vector<double>>(column(block->arrays, colorLabel).values);
     const auto& ids = std::get<std::vector<std::uint64_t>>(column(block->arrays, data::particleId.name).values);
-    std::vector<Array> columns{block->arrays.front()};
-    for (const Variable& variable : settings_.variables.list) columns.push_back(column(block->arrays, variable.label));
+    Columns columns{block->arrays.front()};
+    for (const Variable& variable : settings_.variables.list)
+      columns.emplace_back(column(block->arrays, variable.label));
     std::stable_sort(columns.begin() + 1, columns.end(),
                      [](const Array& a, const Array& b) { return a.components < b.components; });
     const std::string header = extractHeader(columns);
@@ -122,7 +124,7 @@ class ParticleExtract : public Analysis {
 
 }  // namespace
 
-std::string extractHeader(const std::vector<Array>& columns) {
+std::string extractHeader(const Columns& columns) {
   std::string line = "# Time    X      Y      Z     ";
   for (std::size_t k = 1; k < columns.size(); ++k) {
     const Array& array = columns[k];
@@ -134,21 +136,25 @@ std::string extractHeader(const std::vector<Array>& columns) {
   return line + '\n';
 }
 
-std::string extractLine(double time, const std::vector<Array>& columns, std::size_t entry) {
+std::string extractLine(double time, const Columns& columns, std::size_t entry) {
   std::string line = fmt::format("{:E}\t", time);
+  const auto end = std::back_inserter(line);
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const std::size_t components = columns[k].components;
+    const Array& array = columns[k];
+    const std::size_t components = array.components;
     std::visit(
         [&](const auto& values) {
           for (std::size_t i = 0; i < components; ++i) {
             const auto value = values[entry * components + i];
-            if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
-              line += k == 0 ? fmt::format(" {:E}\t", value) : fmt::format("    {:16E}", value);
+            if constexpr (!std::is_floating_point_v<std::decay_t<decltype(value)>>)
+              fmt::format_to(end, "    {}", value);
+            else if (k == 0)
+              fmt::format_to(end, " {:E}\t", value);
             else
-              line += fmt::format("    {}", value);
+              fmt::format_to(end, "    {:16E}", value);
           }
         },
-        columns[k].values);
+        array.values);
   }
   return line + '\n';
 }

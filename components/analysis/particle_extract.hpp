@@ -1,6 +1,8 @@
 #pragma once
 
-#include <iosfwd>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "core/simulation/catalogue.hpp"
 
@@ -12,9 +14,12 @@ namespace tushar::analysis {
 /// vectors, then tensors by rows.
 simulation::AnalysisKind particleExtractKind();
 
+/// Particle variables.
+using Columns = std::vector<std::reference_wrapper<const output::Array>>;
+
 /// The first line of a file: the names of the columns of particle variables.
-std::string extractHeader(const std::vector<output::Array>& columns);
+std::string extractHeader(const Columns& columns);
 /// The line for particle `entry`: the time [s], p.x (which is the first column), and the other variables.
-std::string extractLine(double time, const std::vector<output::Array>& columns, std::size_t entry);
+std::string extractLine(double time, const Columns& columns, std::size_t entry);
 
 }  // namespace tushar::analysis

@@ -22,6 +22,8 @@ std::string typeOf(const Array& array) {
   return names[array.values.index()];
 }
 
+std::string endOfRoot() { return fmt::format("</{}>\n", ArchiveIndex::rootName); }
+
 std::set<std::string> separated(const std::string& names) {
   constexpr std::string_view comma = ", ";
   std::set<std::string> all;
@@ -87,13 +89,12 @@ std::vector<int> ArchiveIndex::steps() const {
 
 bool ArchiveIndex::addVariable(const Array& array, const std::string& centring, const std::string& material) {
   const auto [place, isNew] = variables_.try_emplace(array.label);
-  Variable& variable = place->second;
-  variable.centring = centring;
-  variable.unit = array.unit;
-  variable.description = array.description;
-  variable.type = typeOf(array);
-  variable.components = array.components;
-  return (!material.empty() && variable.materials.insert(material).second) || isNew;
+  Variable variable{centring, array.unit, array.description, typeOf(array), array.components, place->second.materials};
+  const bool isNewOf = !material.empty() && variable.materials.insert(material).second;
+  if (variable == place->second) return false;
+  place->second = std::move(variable);
+  head_.clear();
+  return isNewOf || isNew;
 }
 
 bool ArchiveIndex::add(const Snapshot& snapshot) {
@@ -104,17 +105,24 @@ bool ArchiveIndex::add(const Snapshot& snapshot) {
   for (const FieldBlock& field : snapshot.fields)
     isNew |= addVariable(field.array, field.centring == Centring::cell ? "cell" : "node",
                          field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex));
-  if (!snapshot.grid.boxes.empty()) format_ = format;
+  if (!snapshot.grid.boxes.empty() && format_ != format) {
+    format_ = format;
+    head_.clear();
+  }
   outputs_[snapshot.step] = {snapshot.time, snapshot.delT};
   return isNew;
 }
 
 void ArchiveIndex::add(const GlobalSample& sample, const std::string& file) {
-  globals_[sample.name] = {sample.unit, sample.description, file, sample.values.size()};
+  Global& global = globals_[sample.name];
+  Global now{sample.unit, sample.description, file, sample.values.size()};
+  if (now == global) return;
+  global = std::move(now);
+  head_.clear();
 }
 
-/// Writes the index; outputs are written directly as text, because there are many.
-void ArchiveIndex::write(std::ostream& out) const {
+const std::string& ArchiveIndex::head() const {
+  if (!head_.empty()) return head_;
   pugi::xml_document document;
   pugi::xml_node root = document.append_child(rootName);
   set(root, "format", format_, "version", version_);
@@ -131,8 +139,15 @@ void ArchiveIndex::write(std::ostream& out) const {
     set(node, "name", name, "href", global.file, "components", global.components, "unit", global.unit, "description",
         global.description);
   }
-  const std::string head = textOf(root, 0), end = fmt::format("</{}>\n", rootName);
-  out << xmlDeclaration << std::string_view(head).substr(0, head.size() - end.size());
+  const std::string text = textOf(root, 0);
+  head_ = std::string(xmlDeclaration) + text.substr(0, text.size() - endOfRoot().size());
+  return head_;
+}
+
+/// Writes the index; outputs are written directly as text, because there are many.
+void ArchiveIndex::write(std::ostream& out) const {
+  const std::string end = endOfRoot();
+  out << head();
   if (outputs_.empty()) out << " <timesteps />\n" << end;
   if (outputs_.empty()) return;
   out << " <timesteps>\n";

@@ -46,21 +46,28 @@ class ArchiveIndex {
     std::string centring, unit, description, type;
     int components;
     std::set<std::string> materials;
+
+    friend bool operator==(const Variable&, const Variable&) = default;
   };
   struct Global {
     std::string unit, description, file;
     std::size_t components;
+
+    friend bool operator==(const Global&, const Global&) = default;
   };
   struct Output {
     double time, delT;
   };
   bool addVariable(const Array& array, const std::string& centring, const std::string& material);
+  const std::string& head() const;
 
   std::string version_;
   int format_ = uniformFormat;  ///< format of this archive
   std::map<std::string, Variable> variables_;
   std::map<std::string, Global> globals_;
   std::map<int, Output> outputs_;  ///< outputs, by step
+  /// The text before the list of outputs, which most checkpoints leave as it is; empty after a change.
+  mutable std::string head_;
 };
 
 }  // namespace tushar::output

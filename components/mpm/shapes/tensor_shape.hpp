@@ -126,6 +126,7 @@ struct TensorShape {
    public:
     static constexpr int dimension = D;
     static constexpr int nodes = Axis::nodes;
+    static constexpr bool haveSameNodes = ghostNodes == 0;
 
     /// One of these stencils, used in loops over rows of nodes.
     struct Member {
@@ -151,8 +152,8 @@ struct TensorShape {
 
     /// Constructs stencils for particles at x [m] in a cell, with their initial sizes [cells]; lanes without a particle
     /// repeat another one.
-    Stencils(const CellFrame<D>& frame, const Index<D>& cell, const std::array<Lanes, D>& x,
-             const std::array<Lanes, D>& size)
+    [[gnu::always_inline]] Stencils(const CellFrame<D>& frame, const Index<D>& cell, const std::array<Lanes, D>& x,
+                                    const std::array<Lanes, D>& size)
         : cell_(cell) {
       for (std::size_t d = 0; d < D; ++d) {
         const double origin = frame.origin[static_cast<int>(d)], inverse = frame.inverseSpacing[static_cast<int>(d)];
@@ -175,10 +176,38 @@ struct TensorShape {
       return factors;
     }
 
-    Member operator[](int lane) const {
-      Member member{*this, lane, cell_};
-      for (std::size_t d = 0; d < D; ++d) member.first[static_cast<int>(d)] += static_cast<int>(first_[d][lane]);
-      return member;
+    Member operator[](int lane) const { return {*this, lane, first(lane)}; }
+    /// The first node of one of these stencils.
+    Index<D> first(int lane) const {
+      Index<D> node = cell_;
+      for (std::size_t d = 0; d < D; ++d) node[static_cast<int>(d)] += static_cast<int>(first_[d][lane]);
+      return node;
+    }
+    /// Calls `visit(at, S, gradient)` for the nodes of all of these stencils, with their number in the order of
+    /// Stencil::forEachNode; the results are bitwise equal to those of Stencil.
+    template <class Visit>
+    [[gnu::always_inline]] void forEachNode(Visit&& visit) const {
+      std::size_t at = 0;
+      for (std::size_t k = 0; k < (D < 3 ? 1 : n); ++k)
+        for (std::size_t j = 0; j < (D < 2 ? 1 : n); ++j)
+          for (std::size_t i = 0; i < n; ++i, ++at) {
+            const std::array<std::size_t, 3> node{i, j, k};
+            Real value = s_[0][i];
+            for (std::size_t d = 1; d < D; ++d) value *= s_[d][node[d]];
+            std::array<Lanes, D> gradient;
+            for (std::size_t e = 0; e < D; ++e) {
+              Real slope = e == 0 ? ds_[0][i] : s_[0][i];
+              for (std::size_t d = 1; d < D; ++d) slope *= e == d ? ds_[d][node[d]] : s_[d][node[d]];
+              gradient[e] = slope;
+            }
+            visit(at, Lanes(value), gradient);
+          }
+    }
+    /// S_i / r of node `at` in the order of forEachNode [1/m], bitwise equal to hoopOf.
+    Lanes hoop(std::size_t at) const requires(Axisymmetric) {
+      Real value = hoop_[at % n];
+      if constexpr (D == 2) value *= s_[1][at / n];
+      return value;
     }
 
    private:

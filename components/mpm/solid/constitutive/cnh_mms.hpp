@@ -6,6 +6,7 @@
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/constitutive/tangent.hpp"
+#include "components/mpm/solid/constitutive/tensor_lanes.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -13,8 +14,8 @@ namespace tushar::mpm::solid {
 /// Source: Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
 struct CnhMms {
   struct State {};
-  using Capabilities =
-      CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature, capability::NominalTangent>;
+  using Capabilities = CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature,
+                                      capability::Vectorized, capability::NominalTangent>;
   static constexpr std::string_view name = "cnh_mms";
   static constexpr bool strainEnergyIsRate = false;
 
@@ -32,12 +33,29 @@ struct CnhMms {
   double lambda() const { return bulkModulus - 2.0 / 3.0 * shearModulus; }
 
   State initialState() const { return {}; }
+  template <class Real>
+  TensorOf<Real> cauchyStress(const TensorOf<Real>& f, const Real& j) const {
+    const Real pressure = lambda() * logarithm(j) - shearModulus;
+    TensorOf<Real> stress;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        Real sum = shearModulus * f(i, 0) * f(k, 0);
+        for (int l = 1; l < 3; ++l) sum += shearModulus * f(i, l) * f(k, l);
+        if (i == k) sum += pressure;
+        stress(i, k) = sum / j;
+      }
+    return stress;
+  }
+  template <class Real>
+  TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f) const {
+    const Real j = solid::determinant(f);
+    TensorOf<Real> stress = cauchyStress(f, j);
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) stress(i, k) *= j;
+    return stress;
+  }
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
-    const Matrix3& f = d.deformationGradient;
-    const double j = f.determinant();
-    Matrix3 stress = shearModulus * (f * f.transpose());
-    stress.diagonal().array() += lambda() * std::log(j) - shearModulus;
-    return stress / j;
+    return cauchyStress(d.deformationGradient, d.deformationGradient.determinant());
   }
   /// Computes the tangent d tau = lambda tr h I + G (h B + B hᵀ) with B = F Fᵀ.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
@@ -51,11 +69,26 @@ struct CnhMms {
       return change;
     });
   }
+  template <class Real>
+  Real waveSpeed(double initialDensity, const TensorOf<Real>& f) const {
+    using std::sqrt;
+    return sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * solid::determinant(f) / initialDensity);
+  }
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
+    return waveSpeed(initialDensity, d.deformationGradient);
   }
   /// Returns 0 as in Uintah, so that StrainEnergy can be compared.
+  template <class Real>
+  Real strainEnergyDensity(const TensorOf<Real>&) const {
+    return 0.0;
+  }
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
+
+ private:
+  static double logarithm(double x) { return std::log(x); }
+  static Lanes logarithm(const Lanes& x) {
+    return Lanes::of([&](int lane) { return std::log(x[lane]); });
+  }
 };
 static_assert(ConstitutiveModel<CnhMms>);
 

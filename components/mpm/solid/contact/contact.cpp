@@ -79,17 +79,19 @@ bool isAt(const Contact& contact, const Records& records, const Index<D>& node) 
 template <int D>
 void moveAsOne(const Patch&, const Contact& contact, const Records& records) {
   const std::vector<std::size_t> bodies = contact.bodies(records.size());
-  forEach<D>(records.front().box(), [&](const Index<D>& node) {
-    if (isExcluded<D>(contact, records, node)) return;
-    Vec<D> momentum = Vec<D>::Zero();
-    double total = 0;
-    for (const std::size_t m : bodies) {
-      const NodeRecord& record = records[m][node];
-      momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
-      total += record[lane::mass];
+  std::vector<NodeRecord*> of(bodies.size());  // the record of a node for each body
+  grid::forEachRow<D>(records.front().box(), [&](Index<D> node, int count) {
+    for (std::size_t k = 0; k < bodies.size(); ++k) of[k] = &records[bodies[k]][node];
+    for (; count > 0; --count, ++node[0]) {
+      double total = 0;
+      for (const NodeRecord* record : of) total += (*record)[lane::mass];
+      if (total != 0 && !isExcluded<D>(contact, records, node)) {
+        Vec<D> momentum = Vec<D>::Zero();
+        for (const NodeRecord* record : of) momentum += (*record)[lane::mass] * lanes<D>(*record, lane::velocity);
+        for (NodeRecord* record : of) setLanes<D>(*record, lane::velocity, momentum / total);
+      }
+      for (NodeRecord*& record : of) ++record;
     }
-    if (total == 0) return;
-    for (const std::size_t m : bodies) setLanes<D>(records[m][node], lane::velocity, momentum / total);
   });
 }
 

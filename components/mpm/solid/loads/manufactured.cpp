@@ -11,6 +11,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+using BodyForce = std::function<Vec3(const Vec3& start)>;
+
 double barSpeed(const Elastic& e) { return std::sqrt(e.young / e.density); }
 
 /// The motion u_i = A sin(pi X_i) sin(pi (phi_i + c t)). The axes are independent of one another, and the sides of the
@@ -34,13 +36,18 @@ class AxisAligned : public Manufactured {
     for (int d = 0; d < 3; ++d) f(d, d) += amplitude * pi * std::cos(pi * start[d]) * std::sin(phase(e, d, time));
     return f;
   }
-  Vec3 bodyForce(const Elastic& e, const Vec3& start, double time) const override {
-    const Vec3 u = displacement(e, start, time);
-    const Vec3 f = deformationGradient(e, start, time).diagonal();
-    const double pull = e.lambda * (std::log(f.prod()) - 1) - e.shear, c = barSpeed(e);
-    Vec3 b;
-    for (int d = 0; d < 3; ++d) b[d] = pi * pi * u[d] * ((e.shear - pull / (f[d] * f[d])) / e.density - c * c);
-    return b;
+  BodyForce bodyForce(const Elastic& e, double time) const override {
+    const Vec3 swing(std::sin(phase(e, 0, time)), std::sin(phase(e, 1, time)), std::sin(phase(e, 2, time)));
+    return [e, swing, c = barSpeed(e)](const Vec3& start) {
+      Vec3 u, f, b;
+      for (int d = 0; d < 3; ++d) {
+        u[d] = amplitude * std::sin(pi * start[d]) * swing[d];
+        f[d] = 1 + amplitude * pi * std::cos(pi * start[d]) * swing[d];
+      }
+      const double pull = e.lambda * (std::log(f.prod()) - 1) - e.shear;
+      for (int d = 0; d < 3; ++d) b[d] = pi * pi * u[d] * ((e.shear - pull / (f[d] * f[d])) / e.density - c * c);
+      return b;
+    };
   }
 
  private:
@@ -66,17 +73,19 @@ class ExpandingRing : public Manufactured {
     f(1, 1) += a * g(start);
     return f;
   }
-  Vec3 bodyForce(const Elastic& e, const Vec3& start, double time) const override {
-    const double r = radius(start), a = amplitude * swing(e, time);
-    const double hoop = 1 + a * g(start), radial = hoop + a * r * slope(r);
-    const double hoopChange = a * slope(r), radialChange = a * (2 * slope(r) + r * 2 * c3);
-    const double pull = e.lambda * std::log(radial * hoop) - e.shear;
-    const auto stress = [&](double f) { return pull / f + e.shear * f; };
-    const double change = e.lambda * (radialChange / radial + hoopChange / hoop) / radial -
-                          pull * radialChange / (radial * radial) + e.shear * radialChange;
-    const double divergence = change + (stress(radial) - stress(hoop)) / r;
-    const double acceleration = -a * rate(e) * rate(e) * g(start) * r;
-    return (acceleration - divergence / e.density) / r * flat(start);
+  BodyForce bodyForce(const Elastic& e, double time) const override {
+    return [e, time](const Vec3& start) -> Vec3 {
+      const double r = radius(start), a = amplitude * swing(e, time);
+      const double hoop = 1 + a * g(start), radial = hoop + a * r * slope(r);
+      const double hoopChange = a * slope(r), radialChange = a * (2 * slope(r) + r * 2 * c3);
+      const double pull = e.lambda * std::log(radial * hoop) - e.shear;
+      const auto stress = [&](double f) { return pull / f + e.shear * f; };
+      const double change = e.lambda * (radialChange / radial + hoopChange / hoop) / radial -
+                            pull * radialChange / (radial * radial) + e.shear * radialChange;
+      const double divergence = change + (stress(radial) - stress(hoop)) / r;
+      const double acceleration = -a * rate(e) * rate(e) * g(start) * r;
+      return (acceleration - divergence / e.density) / r * flat(start);
+    };
   }
 
  private:
@@ -110,13 +119,15 @@ class GeneralizedVortex : public Manufactured {
     f.topLeftCorner<2, 2>() << std::cos(alpha), -std::sin(alpha), std::sin(alpha), std::cos(alpha);
     return f + slope / r * Vec3(-x[1], x[0], 0) * Vec3(start[0], start[1], 0).transpose();
   }
-  Vec3 bodyForce(const Elastic& e, const Vec3& start, double time) const override {
-    const double r = radius(start), w = pi * barSpeed(e), s = swing(e, time);
-    const double speed = w * std::cos(w * time) * h(r), slope = s * dh(r), curve = s * d2h(r);
-    const double radial = -r * speed * speed + e.shear * r * slope * slope / e.density;
-    const double around = -r * w * w * s * h(r) - e.shear * (3 * slope + r * curve) / e.density;
-    const Vec3 out = turned(start, angle(e, start, time)) / r;
-    return radial * Vec3(out[0], out[1], 0) + around * Vec3(-out[1], out[0], 0);
+  BodyForce bodyForce(const Elastic& e, double time) const override {
+    return [e, time](const Vec3& start) -> Vec3 {
+      const double r = radius(start), w = pi * barSpeed(e), s = swing(e, time);
+      const double speed = w * std::cos(w * time) * h(r), slope = s * dh(r), curve = s * d2h(r);
+      const double radial = -r * speed * speed + e.shear * r * slope * slope / e.density;
+      const double around = -r * w * w * s * h(r) - e.shear * (3 * slope + r * curve) / e.density;
+      const Vec3 out = turned(start, angle(e, start, time)) / r;
+      return radial * Vec3(out[0], out[1], 0) + around * Vec3(-out[1], out[0], 0);
+    };
   }
 
  private:

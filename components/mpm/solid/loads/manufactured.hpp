@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -29,8 +30,8 @@ class Manufactured {
   virtual Vec3 displacement(const Elastic& elastic, const Vec3& start, double time) const = 0;
   virtual Vec3 velocity(const Elastic& elastic, const Vec3& start, double time) const = 0;
   virtual Matrix3 deformationGradient(const Elastic& elastic, const Vec3& start, double time) const = 0;
-  /// Force per mass [m/s^2] in x, y, z.
-  virtual Vec3 bodyForce(const Elastic& elastic, const Vec3& start, double time) const = 0;
+  /// The force per mass [m/s^2] in x, y, z at a given time, as a function of the point X [m].
+  virtual std::function<Vec3(const Vec3& start)> bodyForce(const Elastic& elastic, double time) const = 0;
 };
 
 /// Makes AxisAligned, ExpandingRing or GeneralizedVortex; returns null for any other name.

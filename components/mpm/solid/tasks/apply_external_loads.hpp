@@ -52,10 +52,10 @@ template <int D>
 void applyManufacturedForce(const Patch& patch, const Material& material, const Manufactured* solution, double time,
                             ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> displacement,
                             ParticleView<const double> mass, ParticleView<Vec<D>> externalForce) {
-  const Elastic elastic = elasticOf(material);
+  const auto bodyForce = solution->bodyForce(elasticOf(material), time);
   for (int p = 0; p < x.owned(); ++p) {
     const Vec3 start = patch.level().expandPoint<D>(x[p] - displacement[p]);
-    externalForce[p] = mass[p] * patch.level().reduce<D>(solution->bodyForce(elastic, start, time));
+    externalForce[p] = mass[p] * patch.level().reduce<D>(bodyForce(start));
   }
 }
 

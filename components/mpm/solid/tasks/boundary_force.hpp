@@ -29,10 +29,11 @@ inline void measureThinBoundary(const Patch& patch, const Material&, int face, P
                                 ParticleView<const Matrix3> stress, VectorSum& total, Sum& area) {
   const double width = patch.level().cellWidth(face / 2), sign = face % 2 == 0 ? -1.0 : 1.0;
   if (width <= 0) return;
-  for (int p = 0; p < volume.owned(); ++p) {
-    total.add(sign * volume[p] / width * stress[p].col(face / 2));
-    area.add(volume[p] / width);
-  }
+  const int count = volume.owned();
+  const std::array<Sum*, 3> sums{&total.x, &total.y, &total.z};
+  for (int axis = 0; axis < 3; ++axis)
+    WideSum(*sums[axis]).addAll(count, [&](int p) { return sign * volume[p] / width * stress[p](axis, face / 2); });
+  WideSum(area).addAll(count, [&](int p) { return volume[p] / width; });
 }
 
 /// Measures forces and areas on all six sides of the scene; `volume` and `stress` read those of particles.

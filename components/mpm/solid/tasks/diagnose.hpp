@@ -5,6 +5,7 @@
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -14,16 +15,22 @@ void addValues(int count, Sum& total, ValueOf&& valueOf) {
   WideSum(total).addAll(count, valueOf);
 }
 
-/// Adds the vectors `vectorOf(p)`, along x, y and z, of `count` particles.
-template <class VectorOf>
-void addVectors(int count, VectorSum& total, VectorOf&& vectorOf) {
-  WideSum x(total.x), y(total.y), z(total.z);
-  for (int p = 0; p < count; ++p) {
-    const Vec3 v = vectorOf(p);
-    x.add(v[0]);
-    y.add(v[1]);
-    z.add(v[2]);
-  }
+/// Adds m_p v_p of the particles along x, y and z; along the axes that the grid does not use, v_p has the components of
+/// `others`.
+template <int D>
+void addMoments(const Level& level, ParticleView<const double> mass, ParticleView<const Vec<D>> of, const Vec3& others,
+                VectorSum& total) {
+  const std::array<Sum*, 3> sums{&total.x, &total.y, &total.z};
+  const int count = mass.owned();
+  const double* const m = valuesOf(mass);
+  const Vec<D>* const v = valuesOf(of);
+  std::array<int, 3> kernelAxis{-1, -1, -1};
+  for (int d = 0; d < D; ++d) kernelAxis[level.axis(d)] = d;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const int d = kernelAxis[axis]; d >= 0)
+      addValues(count, *sums[axis], [=](int p) { return m[p] * v[p][d]; });
+    else if (const double other = others[axis]; other != 0)
+      addValues(count, *sums[axis], [=](int p) { return m[p] * other; });
 }
 
 /// Computes the sum of a particle variable.
@@ -41,15 +48,13 @@ inline void sumThermalEnergy(const Patch&, const Material& material, ParticleVie
 template <int D>
 void sumMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
                  ParticleView<const Vec<D>> velocity, VectorSum& total) {
-  const Level& level = patch.level();
-  addVectors(mass.owned(), total, [&](int p) { return Vec3(mass[p] * level.expandDirection<D>(velocity[p])); });
+  addMoments<D>(patch.level(), mass, velocity, Vec3::Zero(), total);
 }
 /// Computes sum_p m_p x_p [kg m].
 template <int D>
 void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
                      VectorSum& total) {
-  const Level& level = patch.level();
-  addVectors(mass.owned(), total, [&](int p) { return Vec3(mass[p] * level.expandPoint<D>(x[p])); });
+  addMoments<D>(patch.level(), mass, x, patch.level().expandPoint<D>(Vec<D>::Zero()), total);
 }
 
 /// Computes sum_p m_p x_p x v_p about the origin of x, y, z, and the part of APIC's B_p: sum_p m_p (B_kj - B_jk) (Jiang

@@ -2,8 +2,9 @@
 
 #include <Eigen/LU>
 
+#include "components/mpm/solid/constitutive/tensor_lanes.hpp"
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/transfer/placed.hpp"
+#include "components/mpm/solid/transfer/stencil_groups.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -35,13 +36,18 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
   h.capacity.fill(0.0);
   h.temperatureNoBC.fill(0.0);
   const Box& box = h.capacity.box();
-  forEachStencil<Shape>(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
-    const double heat = h.mass[p] * material.specificHeat;
-    forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>&) {
-      h.capacity[node] += s * heat;
-      h.temperatureNoBC[node] += s * heat * h.particleTemperature[p];
-    });
-  });
+  forEachStencilGroup<Shape>(patch, h.particles.x.cells(), h.particles, commonSize,
+                             [&]<class Stencils>(int p, int count, const Stencils& stencils) {
+                               const Lanes heat = valuesOf(h.mass, p, count) * material.specificHeat;
+                               const Lanes temperature = valuesOf(h.particleTemperature, p, count);
+                               NodeShares<Stencils> capacity, warmth;
+                               stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) {
+                                 capacity[at] = s * heat;
+                                 warmth[at] = capacity[at] * temperature;
+                               });
+                               addShares(stencils, count, h.capacity, capacity);
+                               addShares(stencils, count, h.temperatureNoBC, warmth);
+                             });
   forEach<D>(box, [&](const Index<D>& node) {
     if (h.capacity[node] > 0) h.temperatureNoBC[node] /= h.capacity[node];
     h.temperature[node] = h.temperatureNoBC[node];
@@ -73,20 +79,28 @@ template <class Shape, int D = Shape::dimension>
 void computeInternalHeatRate(const Patch& patch, const Material& material, const Vec3& commonSize,
                              const HeatFlow<D>& h) {
   h.heatRate.fill(0.0);
-  const Box& box = h.heatRate.box();
   if (material.thermalConductivity == 0 && !h.heatFlux) return;
   const double density = material.undeformedDensity();
-  forEachStencil<Shape>(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
-    Vec<D> slope = Vec<D>::Zero();
-    stencil.forEachNode(
-        [&](const Index<D>& node, double, const Vec<D>& gradient) { slope += h.temperature[node] * gradient; });
-    const double volume = h.mass[p] / density * (*h.particles.deformation)[p].determinant();
-    slope *= -material.thermalConductivity * volume;
-    const double flux = h.heatFlux ? (*h.heatFlux)[p] : 0.0;
-    forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>& gradient) {
-      h.heatRate[node] += gradient.dot(slope) + s * flux;
-    });
-  });
+  forEachStencilGroup<Shape>(patch, h.particles.x.cells(), h.particles, commonSize,
+                             [&]<class Stencils>(int p, int count, const Stencils& stencils) {
+                               const auto temperature = nodeValues(stencils, h.temperature);
+                               std::array<Lanes, D> slope;
+                               slope.fill(0.0);
+                               stencils.forEachNode([&](std::size_t at, Lanes, const std::array<Lanes, D>& gradient) {
+                                 for (std::size_t d = 0; d < D; ++d) slope[d] += temperature[at] * gradient[d];
+                               });
+                               const Lanes ratio = determinant(lanesOf(h.particles.deformation->values() + p, count));
+                               const Lanes volume = valuesOf(h.mass, p, count) / density * ratio;
+                               for (Lanes& one : slope) one *= -material.thermalConductivity * volume;
+                               const Lanes flux = h.heatFlux ? valuesOf(*h.heatFlux, p, count) : Lanes(0.0);
+                               NodeShares<Stencils> shares;
+                               stencils.forEachNode([&](std::size_t at, Lanes s, const std::array<Lanes, D>& gradient) {
+                                 Lanes conducted = gradient[0] * slope[0];
+                                 for (std::size_t d = 1; d < D; ++d) conducted += gradient[d] * slope[d];
+                                 shares[at] = conducted + s * flux;
+                               });
+                               addShares(stencils, count, h.heatRate, shares);
+                             });
 }
 
 /// Equalises the temperatures of the materials at a node: all get the mean weighted by their heat capacities.
@@ -161,11 +175,13 @@ struct HeatToParticles {
 template <class Shape, int D = Shape::dimension>
 void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSize, const HeatToParticles<D>& h,
                        double dt) {
-  forEachStencil<Shape>(patch, patch.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
-    double change = 0;
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) { change += s * h.rate[node]; });
-    h.newTemperature[p] = h.temperature[p] + dt * change;
-  });
+  forEachStencilGroup<Shape>(
+      patch, patch.cells(), h.particles, commonSize, [&](int p, int count, const auto& stencils) {
+        const auto rate = nodeValues(stencils, h.rate);
+        Lanes change = 0.0;
+        stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) { change += s * rate[at]; });
+        for (int k = 0; k < count; ++k) h.newTemperature[p + k] = h.temperature[p + k] + dt * change[k];
+      });
 }
 
 /// Changes T_p due to the work of the step, after conduction.

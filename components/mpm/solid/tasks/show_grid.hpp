@@ -2,9 +2,11 @@
 
 #include <Eigen/LU>
 
+#include "components/mpm/solid/constitutive/tensor_lanes.hpp"
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/transfer/placed.hpp"
+#include "components/mpm/solid/transfer/stencil_groups.hpp"
+#include "components/mpm/solid/transfer/stress_source.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -14,14 +16,17 @@ namespace tushar::mpm::solid {
 inline void computeVolume(const Patch&, const Material& material, ParticleView<const double> mass,
                           ParticleView<const Matrix3> deformation, ParticleView<double> volume) {
   const double density = material.undeformedDensity();
-  for (int p = 0; p < mass.owned(); ++p) volume[p] = mass[p] / density * deformation[p].determinant();
+  const int count = mass.owned();
+  for (int p = 0; p < count; p += Lanes::count) {
+    const Lanes of = valuesOf(mass, p, count - p) / density * determinant(lanesOf(&deformation[p], count - p));
+    for (int k = p; k < std::min(p + Lanes::count, count); ++k) volume[k] = of[k - p];
+  }
 }
 /// Computes sigma_p [Pa], if the stress is a function of F alone.
 inline void computeStress(const Patch&, const Material& material, ParticleView<const Matrix3> deformation,
                           ParticleView<Matrix3> stress) {
   if (deformation.owned() == 0) return;
-  material.model->kirchhoffStress(&deformation[0], deformation.owned(), &stress[0]);
-  for (int p = 0; p < deformation.owned(); ++p) stress[p] /= deformation[p].determinant();
+  cauchyStress(material, &deformation[0], deformation.owned(), &stress[0]);
 }
 
 /// Views of mass and velocity of particles and on the grid.
@@ -48,15 +53,18 @@ void showMotion(const Patch& patch, const Material&, const Vec3& commonSize, con
   picture.mass.fill(0.0);
   picture.velocity.fill(Vec<D>::Zero());
   const Box& box = picture.mass.box();
-  forEachStencil<Shape>(patch, picture.particles.x.cells(), picture.particles, commonSize,
-                        [&](int p, const auto& stencil) {
-                          const double mass = picture.particleMass[p];
-                          const Vec<D> v = picture.particleVelocity[p];
-                          forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>&) {
-                            picture.mass[node] += s * mass;
-                            picture.velocity[node] += s * mass * v;
-                          });
-                        });
+  forEachStencilGroup<Shape>(
+      patch, picture.particles.x.cells(), picture.particles, commonSize,
+      [&]<class Stencils>(int p, int count, const Stencils& stencils) {
+        const Lanes mass = valuesOf(picture.particleMass, p, count);
+        const std::array<Lanes, D> v = vectorsOf<D>(picture.particleVelocity.values() + p, count);
+        NodeShares<Stencils> shares;
+        stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) { shares[at] = s * mass; });
+        addShares(stencils, count, picture.mass, shares);
+        forEachNodeOfGroup(stencils, count, picture.velocity, [&](Vec<D>& velocity, std::size_t at, int lane) {
+          for (int d = 0; d < D; ++d) velocity[d] += shares[at][lane] * v[static_cast<std::size_t>(d)][lane];
+        });
+      });
   forEach<D>(box, [&](const Index<D>& node) {
     if (picture.mass[node] > 0) picture.velocity[node] /= picture.mass[node];
   });
@@ -77,6 +85,18 @@ struct StressedParticles {
   }
 };
 
+/// V_p sigma_p [N m] of several particles.
+template <int D>
+struct ForceMoments {
+  std::array<std::array<Lanes, D>, D> across;  ///< by kernel axes
+  Lanes around;                                ///< the hoop stress
+
+  ForceMoments(const Level& level, const TensorOf<Lanes>& stress, Lanes volume) : around(volume * stress(2, 2)) {
+    for (int i = 0; i < D; ++i)
+      for (int d = 0; d < D; ++d) across[i][d] = volume * stress(sceneAxis<D>(level, i), sceneAxis<D>(level, d));
+  }
+};
+
 /// Computes V_i = sum_p S_i V_p,   f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta S_i / r in axisymmetric
 /// scenes), before any contact or boundary condition; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
@@ -84,20 +104,27 @@ void showForce(const Patch& patch, const Material&, const Vec3& commonSize, cons
                NodeView<double> volume, NodeView<Vec<D>> force) {
   volume.fill(0.0);
   force.fill(Vec<D>::Zero());
-  const Level& level = patch.level();
-  forEachStencil<Shape>(
-      patch, particles.placed.x.cells(), particles.placed, commonSize, [&](int p, const auto& stencil) {
-        const Matrix3 moment = particles.volume[p] * particles.stress[p];
-        Eigen::Matrix<double, D, D> across;
-        for (int i = 0; i < D; ++i)
-          for (int d = 0; d < D; ++d) across(i, d) = moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d));
-        forEachNodeWithin(stencil, volume.box(), [&](const Index<D>& node, double s, const Vec<D>& gradient) {
-          volume[node] += s * particles.volume[p];
-          for (int i = 0; i < D; ++i)
-            for (int d = 0; d < D; ++d) force[node][i] -= across(i, d) * gradient[d];
-          if constexpr (Shape::axisymmetric) force[node][0] -= moment(2, 2) * hoopOf(stencil, node);
-        });
-      });
+  forEachStencilGroup<Shape>(patch, particles.placed.x.cells(), particles.placed, commonSize,
+                             [&]<class Stencils>(int p, int count, const Stencils& stencils) {
+                               const Lanes volumes = valuesOf(particles.volume, p, count);
+                               const ForceMoments<D> moments(patch.level(),
+                                                             lanesOf(particles.stress.values() + p, count), volumes);
+                               NodeShares<Stencils> shares;
+                               std::array<NodeShares<Stencils>, D * D> forces;
+                               stencils.forEachNode([&](std::size_t at, Lanes s, const std::array<Lanes, D>& gradient) {
+                                 shares[at] = s * volumes;
+                                 for (std::size_t i = 0; i < D; ++i)
+                                   for (std::size_t d = 0; d < D; ++d)
+                                     forces[D * i + d][at] = moments.across[i][d] * gradient[d];
+                               });
+                               addShares(stencils, count, volume, shares);
+                               forEachNodeOfGroup(stencils, count, force, [&](Vec<D>& sum, std::size_t at, int lane) {
+                                 for (int i = 0; i < D; ++i)
+                                   for (int d = 0; d < D; ++d) sum[i] -= forces[D * i + d][at][lane];
+                                 if constexpr (Shape::axisymmetric)
+                                   sum[0] -= moments.around[lane] * stencils.hoop(at)[lane];
+                               });
+                             });
 }
 
 /// Computes sigma_i = sum_p S_i V_p sigma_p / V_i; 0 at nodes without mass.

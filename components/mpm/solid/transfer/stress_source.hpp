@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "components/mpm/solid/constitutive/tensor_lanes.hpp"
 #include "components/mpm/solid/material.hpp"
 
 namespace tushar::mpm::solid {
@@ -29,7 +30,13 @@ void stressMoments(const Material& material, const StressSource& from, int first
 /// Computes sigma [Pa] of `count` particles whose stress is a function of F alone.
 inline void cauchyStress(const Material& material, const Matrix3* deformation, int count, Matrix3* stress) {
   material.model->kirchhoffStress(deformation, count, stress);
-  for (int k = 0; k < count; ++k) stress[k] /= deformation[k].determinant();
+  for (int k = 0; k < count; k += Lanes::count) {
+    const Lanes j = determinant(lanesOf(deformation + k, count - k));
+    TensorOf<Lanes> of = lanesOf(stress + k, count - k);
+    for (int i = 0; i < 3; ++i)
+      for (int l = 0; l < 3; ++l) of(i, l) /= j;
+    storeLanes(of, stress + k, count - k);
+  }
 }
 
 }  // namespace tushar::mpm::solid

@@ -7,6 +7,7 @@
 
 #include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/explicit/keeps.hpp"
+#include "components/mpm/solid/transfer/cell_run.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 #include "components/mpm/solid/transfer/stress_source.hpp"
@@ -98,23 +99,33 @@ void addSurface(const Patch& patch, const Material& material, const Vec3& common
   const Box& box = u.surface.box();
   const Extents<Shape> extents(patch.level(), commonSize, u.size, u.deformation);
   const double density = material.undeformedDensity();
-  const auto add = [&](int p, const auto& stencil) {
+  const auto add = [&](int p, const Matrix3& sigma, const auto& stencil) {
     const double mass = u.mass[p], v = mass / density * u.deformation[p].determinant();
-    Matrix3 sigma = Matrix3::Zero();
-    if (u.particleStress)
-      sigma = (*u.particleStress)[p];
-    else
-      cauchyStress(material, &u.deformation[p], 1, &sigma);
     const SurfaceShare<D> share(u.x[p], mass, v, Shape::axisymmetric ? mass / v : mass, sigma);
     forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>& gradient) {
       share.addTo(u.surface[node], s, gradient);
     });
   };
+  CellRun<D> near;
+  std::vector<Matrix3> stress;
+  const auto addNear = [&] {
+    if (near.count() == 0) return;
+    stress.resize(std::max(stress.size(), static_cast<std::size_t>(near.count())));
+    if (!u.particleStress) cauchyStress(material, &u.deformation[near.first()], near.count(), stress.data());
+    const Matrix3* const sigma = u.particleStress ? &(*u.particleStress)[near.first()] : stress.data();
+    near.forEachCell([&](const Index<D>& cell, const data::ParticleRange& range) {
+      const CellFrame<D> frame(patch.level(), cell);
+      for (const int p : range)
+        add(p, sigma[p - near.first()], typename Shape::Stencil(frame, cell, u.x[p], extents[p]));
+    });
+    near.clear();
+  };
   u.x.template forEachOccupied<D>(u.x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
     if (!places.areNear(cell, Shape::ghostNodes)) return;
-    const CellFrame<D> frame(patch.level(), cell);
-    for (const int p : range) add(p, typename Shape::Stencil(frame, cell, u.x[p], extents[p]));
+    if (!near.takes(range)) addNear();
+    near.add(cell, range);
   });
+  addNear();
   mirrorSurface<D>(patch, material, u.surface);
 }
 
