@@ -38,8 +38,12 @@ bool hasAllPairs(const std::vector<double>& given, const char* name, int materia
   return false;
 }
 
-/// The smallest width of a cell [m]; none if the scene does not give it as a number, or if the grid has several levels.
-std::optional<double> leastWidth(const Element& root) {
+/// The extent of a grid, and the widths of its cells [m].
+struct GridWidths {
+  Vec3 lower, upper, widths;
+};
+/// The grid of a scene; none if the scene does not give it as numbers, or if the grid has several levels.
+std::optional<GridWidths> gridOf(const Element& root) {
   const auto grid = root.child("Grid");
   const auto levels = grid ? grid->children("Level") : std::vector<Element>();
   if (levels.size() != 1 || root.child("AMR")) return {};
@@ -49,16 +53,39 @@ std::optional<double> leastWidth(const Element& root) {
     const auto tag = of ? of->child(name) : std::nullopt;
     return tag ? input::parse<Vec3>(tag->text()).value : std::nullopt;
   };
-  if (const auto spacing = vectorOf(level, "spacing")) return spacing->minCoeff();
   const auto lower = vectorOf(box, "lower"), upper = vectorOf(box, "upper"), cells = vectorOf(box, "resolution");
-  if (!lower || !upper || !cells) return {};
-  return (*upper - *lower).cwiseQuotient(*cells).minCoeff();
+  if (!lower || !upper) return {};
+  if (const auto spacing = vectorOf(level, "spacing")) return GridWidths{*lower, *upper, *spacing};
+  if (!cells) return {};
+  return GridWidths{*lower, *upper, (*upper - *lower).cwiseQuotient(*cells)};
+}
+
+/// Notes bodies of a single shape that are so thin along an axis that gas leaks through them.
+void noteThinBodies(const std::vector<mpm::solid::Material>& materials, const Element& root, Diagnostics& diagnostics) {
+  constexpr double leastCells = 1.25;
+  const auto grid = gridOf(root);
+  if (!grid) return;
+  for (const mpm::solid::Material& material : materials) {
+    if (material.bodies.size() != 1) continue;
+    const mpm::solid::Body& body = material.bodies.front();
+    const auto bounds = body.shape->bounds();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (bounds.min[axis] <= grid->lower[axis] && bounds.max[axis] >= grid->upper[axis]) continue;
+      const double cells = (bounds.max[axis] - bounds.min[axis]) / grid->widths[axis];
+      if (!(cells > 0 && cells < leastCells * (1 - 1e-9))) continue;
+      diagnostics.note(body.where, "MaterialProperties/MPM/material/geom_object",
+                       fmt::format("is {:.2g} cells thick along {}: gas leaks through bodies thinner than {:g} cells; "
+                                   "to prevent this, set <thin_walls> of <ICE> to true, or refine the grid",
+                                   cells, "xyz"[axis], leastCells));
+    }
+  }
 }
 
 /// The largest initial rho c / h [kg/(m^3 s)] of any gas in any cell, a measure of how fast sound crosses the cell;
 /// infinite if it is not known. An exchange of momentum that is faster stops the gas within a cell, as a wall does.
 double fastestCrossing(const std::vector<euler::Settings>& gases, const Element& root) {
-  const auto width = leastWidth(root);
+  const auto grid = gridOf(root);
+  const std::optional<double> width = grid ? std::optional(grid->widths.minCoeff()) : std::nullopt;
   double greatest = width && *width > 0 ? 0 : std::numeric_limits<double>::infinity();
   for (const euler::Settings& gas : gases)
     for (const euler::GasObject& object : gas.objects) {
@@ -258,6 +285,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   settings.burning = burningOf(scene, areRigid, root, diagnostics);
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);
+  if (!settings.thinWalls) noteThinBodies(bodies.materials, root, diagnostics);
   if (diagnostics.size() > before) return {};
   return [settings, make = bodies.make](const Level& level) -> std::unique_ptr<Component> {
     if (level.dimension() == 1) return makeWithGas<1>(level, settings, make);

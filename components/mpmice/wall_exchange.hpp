@@ -161,12 +161,9 @@ class WallExchange {
     if (up == 0) return;
     const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
     if (isClosedPore(receiver)) return;
-    std::optional<Gift> gas;
-    if (!space_.isEmpty(donor))
-      gas = givenBy(donor, receiver);
-    else if (!(gas = passedBy(donor, axis)))
-      return;
-    if (space_.isEmpty(receiver) && !space_.isEmpty(donor))
+    std::optional<Gift> gas = isFull(donor) ? passedBy(donor, axis) : givenBy(donor, receiver);
+    if (!gas) return;
+    if (isFull(receiver) && !space_.isEmpty(donor))
       gas->share *= passingAt(receiver).accepted(static_cast<std::size_t>(axis), step_.newFree[receiver]);
     if (!(gas->share > 0)) return;
     if (masses.below)
@@ -188,8 +185,11 @@ class WallExchange {
     double share = 1;
   };
 
-  /// The volumes, per cell volume, that follow walls into and out of a cell without gas, along each axis, and what it
-  /// passes on. It passes on only gas that flows in along other axes, as where a hole moves around an edge. So no
+  /// Whether bodies fill a cell at the start of a step, except for a hole that has no gas.
+  bool isFull(const Index<D>& cell) const { return cells_.free[cell] < narrowFreeVolume && space_.isEmpty(cell); }
+
+  /// The volumes, per cell volume, that follow walls into and out of a cell that bodies fill, along each axis, and what
+  /// it passes on. It passes on only gas that flows in along other axes, as where a hole moves around an edge. So no
   /// gas passes straight through a body whose boxes do not move exactly as its walls do.
   struct Passing {
     using PerAxis = std::array<double, D>;
@@ -250,7 +250,7 @@ class WallExchange {
     volumes.divide();
     return volumes;
   }
-  /// What a cell without gas passes on along an axis.
+  /// What a cell that bodies fill passes on along an axis.
   std::optional<Gift> passedBy(const Index<D>& cell, int axis) const {
     const Passing volumes = passingAt(cell);
     const auto d = static_cast<std::size_t>(axis);
@@ -265,21 +265,24 @@ class WallExchange {
     return Gift{mean, passed / volumes.out[d]};
   }
 
-  /// What a donor with gas can give. One that is mostly free, or one that will be merged with such a neighbour,
+  /// What a donor can give. A donor with gas that is mostly free, or one that will be merged with such a neighbour,
   /// gives all that is requested; if it has too little, the neighbour supplies the rest. Any other donor gives gas of
   /// the requested density, but at most all that it has.
-  Gift givenBy(const Index<D>& donor, const Index<D>& receiver) const {
-    const Parcel<D> wanted = stateOf(donor, receiver);
-    if (isBesideRoom(donor)) return {wanted};
+  std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
+    const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
+    if (!wanted) return std::nullopt;
+    if (isBesideRoom(donor)) return Gift{*wanted};
     const double mass = cells_.held.density[donor];
-    return {cells_.contentOf(donor, wanted.u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
+    if (!(mass > 0)) return std::nullopt;
+    return Gift{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
   }
   /// The mass that a donor would give through all its faces [kg/m³]. It is an upper estimate: it includes closed pores,
   /// which receive none.
   double massAskedOf(const Index<D>& donor) const {
     double mass = 0;
     forEachFollowing(donor, [&](int, const Index<D>& neighbour, double volume) {
-      if (volume < 0) mass -= volume * stateOf(donor, neighbour).u[euler::kDensity];
+      const std::optional<Parcel<D>> gas = volume < 0 ? stateOf(donor, neighbour) : std::nullopt;
+      if (gas) mass -= volume * gas->u[euler::kDensity];
     });
     return (1 + roundOffOfShares) * mass;
   }
@@ -294,11 +297,28 @@ class WallExchange {
     return any;
   }
 
-  /// The state of the gas that a donor gives: that of the donor or, if the donor has almost no free volume, a blend of
-  /// the donor's and the receiver's.
-  Parcel<D> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
-    const double room = roomOf(cells_.free[donor]) / cells_.free[donor];
-    return room == 1 || space_.isEmpty(receiver) ? cells_.parcel(donor) : mixed(room, donor, receiver);
+  /// The state of the gas that a donor gives. It is that of the donor's gas or, if the donor has none, that of the
+  /// receiver's gas; if the receiver has none either, it is the mean around the donor. If the donor has almost no free
+  /// volume, it is a blend of the donor's and the receiver's.
+  std::optional<Parcel<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
+    const double room = space_.isEmpty(donor) ? 0 : roomOf(cells_.free[donor]) / cells_.free[donor];
+    if (room == 1) return cells_.parcel(donor);
+    if (!space_.isEmpty(receiver)) return mixed(room, donor, receiver);
+    if (room > 0) return cells_.parcel(donor);
+    Parcel<D> sum;
+    int count = 0;
+    for (int d = 0; d < D; ++d)
+      for (int side = 0; side < 2; ++side) {
+        if (space_.isAtSide(donor, d, side)) continue;
+        const Index<D> next = side == 0 ? donor - Index<D>::unit(d) : donor + Index<D>::unit(d);
+        if (space_.isEmpty(next)) continue;
+        sum.add(cells_.parcel(next), 1);
+        ++count;
+      }
+    if (count == 0) return std::nullopt;
+    Parcel<D> mean;
+    mean.add(sum, 1.0 / count);
+    return mean;
   }
   /// `part` times the state of the cell `of`, plus 1 - `part` times the state of the cell `rest`.
   Parcel<D> mixed(double part, const Index<D>& of, const Index<D>& rest) const {

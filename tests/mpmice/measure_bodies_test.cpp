@@ -86,7 +86,9 @@ TYPED_TEST(BodiesAlongAxes, SweepWhatCellsGainOrLose) {
     const Index<D> origin = Index<D>::filled(4);
     old.views().take(origin, before);
     fresh.views().take(origin, after);
-    addSwept<D>(origin, before, after, swept.cells());
+    Field<Vec<D>> by = swept;
+    const SweptFaces<D> faces{swept.cells(), by.cells()};
+    Sweeps<D>(faces).add(origin, before, after);
     forEach<D>(cube<D>(8), [&](const Index<D>& cell) {
       double left = 0;
       for (int d = 0; d < D; ++d) left += swept.seen()[cell + Index<D>::unit(d)][d] - swept.seen()[cell][d];
@@ -101,10 +103,17 @@ TYPED_TEST(BodiesAlongAxes, SweepTheirCrossSectionTimesTheirWay) {
   const ParticleBox<D> before{Vec<D>::Constant(0.5), Vec<D>::Constant(0.5)};
   ParticleBox<D> after = before;
   after.middle[0] += 0.5;  // half of it through the upper face of its cell
-  addSwept<D>(Index<D>::filled(2), before, after, swept.cells());
+  Field<Vec<D>> by = swept;
+  const SweptFaces<D> faces{swept.cells(), by.cells()};
+  Sweeps<D> sweeps(faces);
+  sweeps.add(Index<D>::filled(2), before, after);
+  sweeps.settle();
   forEach<D>(cube<D>(5), [&](const Index<D>& cell) {
     const bool isFace = cell == Index<D>::filled(2) + Index<D>::unit(0);
-    for (int d = 0; d < D; ++d) EXPECT_EQ(swept.seen()[cell][d], isFace && d == 0 ? 0.25 * std::pow(0.5, D - 1) : 0.0);
+    for (int d = 0; d < D; ++d) {
+      EXPECT_EQ(swept.seen()[cell][d], isFace && d == 0 ? 0.25 * std::pow(0.5, D - 1) : 0.0);
+      EXPECT_EQ(by.seen()[cell][d], isFace && d == 0 ? 0.5 : c::notSwept);
+    }
   });
 }
 

@@ -28,7 +28,7 @@ struct Vacuum {
     Field<double> density = gas.density, energy = gas.energy;
     Field<Vec<1>> momentum = gas.momentum;
     const GasInCells<1> cells = gas.gas();
-    const BodiesInStep<1> step{{below.seen(), below.seen()}, newFree.seen(), swept.seen()};
+    const BodiesInStep<1> step{{below.seen(), below.seen()}, newFree.seen(), swept.seen(), sweptBy.seen()};
     const typename BodiesAtNodes<1>::Records bodies{{records.seenNodes()}};
     const WallExchange<1> exchange(level, settings, cells, step, bodies, 0.01);
     exchange.addTo({cell}, {{density.cells(), momentum.cells(), energy.cells()}, {}, {}}, {});
@@ -39,11 +39,39 @@ struct Vacuum {
   Settings settings;
   GasFields<1> gas{level.cells()};
   Field<double> newFree{level.cells(), 1};
-  Field<Vec<1>> below{level.cells(), Vec<1>::Zero()}, swept{below};
+  Field<Vec<1>> below{level.cells(), Vec<1>::Zero()}, swept{below},
+      sweptBy{level.cells(), Vec<1>::Constant(c::notSwept)};
   Field<NodeRecord> records{level.nodes(), NodeRecord{}};
 };
 
+/// Five cells on a line, with a body that fills the third one. Its boxes have not moved, although its nodes have.
+struct Plate : Vacuum {
+  static constexpr int body = 2;
+
+  Plate() {
+    for (int k = 0; k < 5; ++k) {
+      gas.density.values[k] = k < body ? 100 : k > body ? 1 : 0;
+      gas.energy.values[k] = 2.5 * gas.density.values[k];
+      gas.free.values[k] = newFree.values[k] = k == body ? 0 : 1;
+      gas.coverage.values[k][0] = k == body || k == body + 1 ? 1 : 0;
+    }
+  }
+};
+
 }  // namespace
+
+TEST(WallExchange, PassesNoGasThroughACellThatABodyFills) {
+  for (const double velocity : {-0.7, 0.7}) {
+    Plate line;
+    for (int k = 2; k < 6; ++k)
+      mpm::solid::setLanes<1>(line.records.values[k], lane::velocity, Vec<1>::Constant(velocity));
+    EXPECT_EQ(line.densityAfter(Plate::body - 1), 100);
+    EXPECT_EQ(line.densityAfter(Plate::body), 0);
+    EXPECT_EQ(line.densityAfter(Plate::body + 1), 1);
+    line.newFree.values[Plate::body] = 1e-3;  // as much as this has room in it, from the side from which it comes
+    EXPECT_NEAR(line.densityAfter(Plate::body), velocity > 0 ? 0.1 : 1e-3, 1e-15);
+  }
+}
 
 TEST(WallExchange, TakesNoGasFromAFreeCellThatHasNone) {
   Vacuum line;

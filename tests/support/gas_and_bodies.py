@@ -14,7 +14,7 @@ from sus import ROOT
 PRESSURE, DENSITY, FREE = "c.pressure [Pa]", "c.density [kg/m^3]", "c.freeVolume [1]"
 # Width and height of scenes in a plane, m.
 PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1),
-         "burning_grain": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
+         "burning_grain": (1, 1), "carried_disc": (1, 1), "ring": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
 
 
 def scene(name):
@@ -269,6 +269,36 @@ def closed_box(cells):
     energies = [one + strain[1] for one, strain in zip(run_of.energies(), run_of.totals["StrainEnergy"])]
     return {"mass": run_of.drift([line[1] for line in run_of.totals["GasMass"]]),
             "energy": energies[-1] / energies[0] - 1}
+
+
+def ring(cells):
+    """Returns the relative errors of the mean radial displacement of a ring and of its mean hoop stress, against Lamé's
+    solution in plane strain with the pressures of the gas on both sides."""
+    inner, outer, shear, poisson = .26, .34, 1000, 2 / 7
+    with tempfile.TemporaryDirectory() as folder:
+        archive = archive_of(scene("ring"), folder, *resolution("ring", cells))
+        gas = columns(archive, "c.pressure")
+        body = columns(archive, "p.displacement", "p.stress")
+
+    def load(is_there):
+        return mean([p for x, y, p in zip(gas["x [m]"], gas["y [m]"], gas[PRESSURE])
+                     if is_there(math.hypot(x, y))]) - 1
+
+    inside, outside = load(lambda r: r < .2), load(lambda r: .45 < r < .9)
+    spread = outer ** 2 - inner ** 2
+    constant = (inside * inner ** 2 - outside * outer ** 2) / spread
+    falling = (inside - outside) * (inner * outer) ** 2 / spread
+    moved, exact, hoop, exact_hoop = [], [], [], []
+    names = [f"p.displacement.{axis} [m]" for axis in "xy"] + [f"p.stress.{axes} [Pa]" for axes in ("xx", "xy", "yy")]
+    for x, y, dx, dy, xx, xy, yy in zip(body["x [m]"], body["y [m]"], *(body[name] for name in names)):
+        r = math.hypot(x - dx, y - dy)
+        c, s = (x - dx) / r, (y - dy) / r
+        moved.append(dx * c + dy * s)
+        exact.append(((1 - 2 * poisson) * constant * r + falling / r) / (2 * shear))
+        hoop.append(xx * s * s - 2 * xy * s * c + yy * c * c)
+        exact_hoop.append(constant + falling / r ** 2)
+    return {"u": mean(moved) / mean(exact) - 1, "hoop": mean(hoop) / mean(exact_hoop) - 1,
+            "worst hoop": max(abs(one - other) for one, other in zip(hoop, exact_hoop)) / mean(exact_hoop)}
 
 
 def couette(cells):

@@ -72,7 +72,9 @@ TEST(PAlpha, HasNoJumpWhereItsPressureVanishes) {
     }
     point.advance(atDistension(1.1 * free));
     EXPECT_NEAR(pressureOf(point), 5 * (1 - 1.1), 1e-10) << "Ku is K0/10";
-    if (least > atLimit) EXPECT_NEAR(free, atStart, 1e-12);
+    if (least > atLimit) {
+      EXPECT_NEAR(free, atStart, 1e-12);
+    }
   }
 }
 

@@ -71,6 +71,13 @@ def refined(name, *blocks):
                      (f"AMR/Regridder/min_patch_size=[[{n},{n},1]]",)) for n in blocks)]
 
 
+def pushed(name):
+    """A body that gas pushes, with gas of second and of first order, and with explicit steps of half the length."""
+    scene = f"ups/fsi/{name}.ups"
+    return [Method("second order", scene), Method("second order, cfl .2", scene, ("CFD/cfl=0.2",)),
+            Method("first order", scene, ("CFD/ICE/advection/@type=FirstOrder",))]
+
+
 # name -> (methods, what is varied, the error)
 READY = {
     "sod": (SOD, {"resolution": ["100", "200", "400", "800"]}, "density.cell.L1"),
@@ -101,6 +108,13 @@ READY = {
                     {"dt": ["1e-5", "1e-6", "1e-7", "1e-8"]},
                     "change.CenterOfMassPosition"),
     "levels": (refined("lax_liu_3", 8, 16), {"finest": ["64", "128", "256", "512"]}, "density.cell.L1"),
+    # The change of the sum of mass times position of the body [kg m], against its exact value.
+    "gun": (pushed("gun"), {"resolution": ["75", "150", "300", "600"]}, "last.CenterOfMassPosition[0]=0.70748862"),
+    "plug": (pushed("plug"), {"resolution": ["50", "100", "200", "400"]}, "last.CenterOfMassPosition[0]=0.06685995"),
+    "plug_of_gases": (pushed("plug_of_gases"), {"resolution": ["50", "100", "200", "400"]},
+                      "last.CenterOfMassPosition[0]=0.04724319"),
+    "sod_plate": (pushed("sod_plate"), {"resolution": ["103", "206", "412"]},
+                  "last.CenterOfMassPosition[0]=0.0045543"),
     "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
              "temperature.cell.L1"),
 }
