@@ -276,10 +276,11 @@ void Hdf5File::showParts(const std::string& name, const Array::Values& type, con
   }
   H5Sselect_all(space);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  if (std::holds_alternative<std::vector<double>>(type)) H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &nan);
-  const bool isOfThisFile = !parts.empty() && parts.front().file == ".";
-  const Handle kept =
-      isOfThisFile ? typeIn(file_, parts.front().dataset) : Handle(H5Tcopy(fileTypeLike(type)), H5Tclose);
+  const bool isDouble = std::holds_alternative<std::vector<double>>(type);
+  if (isDouble) H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &nan);
+  // Opening a dataset of many parts takes as long as making it, and only integers of this file may have another type.
+  const bool hasOwnType = !isDouble && !parts.empty() && parts.front().file == ".";
+  const Handle kept = hasOwnType ? typeIn(file_, parts.front().dataset) : Handle(H5Tcopy(fileTypeLike(type)), H5Tclose);
   const Handle data(H5Dcreate2(file_, name.c_str(), kept, space, links, creation, H5P_DEFAULT), H5Dclose);
   checked<hid_t>(data, name + " in");
   shown_ += parts.size();

@@ -85,10 +85,11 @@ struct ConvectedShape {
         Quad* const cell = sums.data() + numberOf(c);
         for (int k = 0; k < corners; ++k) cell[offsetOf(k)] += weights[k][c] * each;
       }
-      forEach<D>(touched(), [&](const Index<D>& node) {
-        std::size_t number = 0;
-        for (int d = D - 1; d >= 0; --d) number = number * nodes + static_cast<std::size_t>(node[d]);
-        const Quad& sum = sums[number];
+      Box offsets{{}, Index3::filled(1)};
+      for (int d = 0; d < D; ++d) offsets.upper[d] = nodes;
+      const Quad* next = sums.data();
+      forEach<D>(offsets, [&](const Index<D>& node) {
+        const Quad& sum = *next++;
         if (sum[3] == 0) return;
         Vec<D> gradient;
         for (int d = 0; d < D; ++d) gradient[d] = sum[d];
@@ -107,20 +108,6 @@ struct ConvectedShape {
    private:
     static constexpr std::size_t around = D == 1 ? nodes : D == 2 ? nodes * nodes : nodes * nodes * nodes;
 
-    /// The box of the nodes of all cells that contain a corner, counted from `first`.
-    Box touched() const {
-      Box box{{}, Index3::filled(1)};
-      for (int d = 0; d < D; ++d) {
-        double least = cellOf[d][0], greatest = least;
-        for (int c = 1; c < corners; ++c) {
-          least = std::min(least, cellOf[d][c]);
-          greatest = std::max(greatest, cellOf[d][c]);
-        }
-        box.lower[d] = static_cast<int>(least);
-        box.upper[d] = static_cast<int>(greatest) + 2;
-      }
-      return box;
-    }
     /// The index of the lowest node of the cell that contains corner c, among the nodes of all cells near the particle.
     std::size_t numberOf(int c) const {
       std::size_t number = 0;
