@@ -51,9 +51,9 @@ class BodiesAtNodes {
   double massAt(const Index<D>& cell, int axis) const {
     if (records_->size() == 1) return sumAt(cell, axis, 0, mpm::solid::lane::velocity).mass;
     double whole = 0, perMass = 0;
-    forEachBody(cell, axis, [&](std::size_t, double part, double mass) {
+    forEachBody(cell, axis, mpm::solid::lane::velocity, [&](std::size_t, double part, const Content& of) {
       whole += part;
-      perMass += part * (part / mass);
+      perMass += part * (part / of.mass);
     });
     return whole > 0 ? whole * (whole / perMass) : 0;
   }
@@ -63,9 +63,9 @@ class BodiesAtNodes {
     if (records_->size() == 1) return sumAt(cell, axis, 0, lane).velocity();
     double whole = 0;
     Vec<D> sum = Vec<D>::Zero();
-    forEachBody(cell, axis, [&](std::size_t body, double part, double) {
+    forEachBody(cell, axis, lane, [&](std::size_t, double part, const Content& of) {
       whole += part;
-      sum += part * sumAt(cell, axis, body, lane).velocity();
+      sum += part * of.velocity();
     });
     return whole > 0 ? Vec<D>(sum / whole) : sum;
   }
@@ -73,10 +73,11 @@ class BodiesAtNodes {
   template <class Visit>
   void distribute(const Index<D>& cell, int axis, Visit&& visit) const {
     double whole = 0;
-    forEachBody(cell, axis, [&](std::size_t, double part, double) { whole += part; });
-    forEachBody(cell, axis, [&](std::size_t body, double part, double mass) {
+    constexpr int lane = mpm::solid::lane::velocity;
+    forEachBody(cell, axis, lane, [&](std::size_t, double part, const Content&) { whole += part; });
+    forEachBody(cell, axis, lane, [&](std::size_t body, double part, const Content& of) {
       forEachAt(cell, axis, body, [&](const Index<D>& node, const mpm::solid::NodeRecord&, double m) {
-        visit(body, node, records_->size() == 1 ? m / mass : m / mass * (part / whole));
+        visit(body, node, records_->size() == 1 ? m / of.mass : m / of.mass * (part / whole));
       });
     });
   }
@@ -115,25 +116,26 @@ class BodiesAtNodes {
   /// How the parts of bodies in a face are measured.
   enum class By { coverage, volume, mass };
 
-  /// Calls `visit(body, part, mass)` for the bodies that have a part in a face and mass at its nodes [kg].
+  /// Calls `visit(body, part, content)` for the bodies that have a part in a face and mass at its nodes.
   template <class Visit>
-  void forEachBody(const Index<D>& cell, int axis, Visit&& visit) const {
-    std::array<double, kFewBodies> few{};
-    std::vector<double> many(records_->size() > kFewBodies ? records_->size() : 0);
-    double* masses = many.empty() ? few.data() : many.data();
+  void forEachBody(const Index<D>& cell, int axis, int lane, Visit&& visit) const {
+    std::array<Content, kFewBodies> few{};
+    std::vector<Content> many(records_->size() > kFewBodies ? records_->size() : 0);
+    Content* contents = many.empty() ? few.data() : many.data();
     By by = By::mass;
     for (std::size_t k = 0; k < records_->size(); ++k) {
-      masses[k] = sumAt(cell, axis, k, mpm::solid::lane::velocity).mass;
-      if (!(masses[k] > 0)) continue;
+      contents[k] = sumAt(cell, axis, k, lane);
+      if (!(contents[k].mass > 0)) continue;
       if (coverageBy(k, cell, axis) > 0) by = By::coverage;
       if (by == By::mass && volumeOf(k, cell, axis) > 0) by = By::volume;
     }
     for (std::size_t k = 0; k < records_->size(); ++k) {
-      if (!(masses[k] > 0)) continue;
+      const double mass = contents[k].mass;
+      if (!(mass > 0)) continue;
       const double part = by == By::coverage ? coverageBy(k, cell, axis)
                           : by == By::volume ? volumeOf(k, cell, axis)
-                                             : masses[k];
-      if (part > 0) visit(k, part, masses[k]);
+                                             : mass;
+      if (part > 0) visit(k, part, contents[k]);
     }
   }
   /// The fraction of a face that one of several bodies covers; 0 if it is alone.

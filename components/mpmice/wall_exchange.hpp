@@ -287,14 +287,17 @@ class WallExchange {
     return (1 + roundOffOfShares) * mass;
   }
   /// Whether a cell contains gas and is mostly free after the step, or will be merged with such a neighbour, possibly
-  /// across a corner.
+  /// across a corner. If a mostly free neighbour has no gas, the cell may be merged with that one instead.
   bool isBesideRoom(const Index<D>& cell) const {
     const auto isFree = [&](const Index<D>& at) { return step_.newFree[at] >= smallFreeVolume; };
     const auto hasGas = [&](const Index<D>& at) { return cells_.held.density[at] > 0; };
     if (isFree(cell)) return hasGas(cell);
-    bool any = false;
-    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) { any |= isFree(at) && hasGas(at); });
-    return any;
+    bool any = false, all = true;
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) {
+      any = any || isFree(at);
+      all = all && (!isFree(at) || hasGas(at));
+    });
+    return any && all;
   }
 
   /// The state of the gas that a donor gives. It is that of the donor's gas or, if the donor has none, that of the

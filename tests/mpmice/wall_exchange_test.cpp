@@ -85,4 +85,11 @@ TEST(WallExchange, TakesGasThatFollowsAWallFromASmallCellWithAFreeNeighbour) {
   EXPECT_NEAR(line.densityAfter(Vacuum::empty + 1), 0.7 * 0.01 / line.level.spacing(0), 1e-15);
 }
 
+TEST(WallExchange, TakesNoGasFromASmallCellThatMayBeMergedWithAnEmptyOne) {
+  Vacuum line;
+  line.newFree.values[Vacuum::empty] = line.gas.free.values[Vacuum::empty] = 0.2;
+  line.newFree.values[Vacuum::empty + 1] = 0.6;
+  EXPECT_EQ(line.densityAfter(Vacuum::empty + 1), 0);
+}
+
 }  // namespace tushar::mpmice
