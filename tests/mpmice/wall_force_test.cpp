@@ -103,12 +103,12 @@ TYPED_TEST(WallForceAlongAxes, BelongsToTheBodiesThatCoverTheFace) {
   }
   const Index<D> face = Index<D>::filled(2);
   const auto views = [&] {
-    auto views = walled.seen();
+    auto each = walled.seen();
     for (int m = 0; m < 2; ++m) {
-      views[m].free = free[m].seen();
-      views[m].coverage = coverage[m].seen();
+      each[m].free = free[m].seen();
+      each[m].coverage = coverage[m].seen();
     }
-    return views;
+    return each;
   };
   const auto velocity = [&] {
     const auto seen = views();
