@@ -194,9 +194,10 @@ template <int D>
 void GasAround<D>::carryScalars(TaskList& tasks) const {
   const bool hasSlopes = settings_.gas.method.reconstruction != euler::Reconstruction::firstOrder;
   for (const auto& one : scalars_)
-    tasks.perPatch("ice::carryScalar", ice::carryScalar<D>, with(one.get()), with(settings_.gas.gas), with(hasSlopes),
-                   all<ice::ScalarBefore<D>>(one.get(), ice::RoomOfGas{&c::freeVolume, wholeFreeVolume}), startTime(),
-                   requiresOld(delT), computes(one->unshared()), keepsFlux(one->unshared()));
+    tasks.perPatch(
+        "ice::carryScalar", ice::carryScalar<D>, with(one.get()), with(settings_.gas.gas), with(hasSlopes),
+        all<ice::ScalarBefore<D>>(one.get(), ice::RoomOfGas{&c::freeVolume, wholeFreeVolume, leastFreeVolume}),
+        startTime(), requiresOld(delT), computes(one->unshared()), keepsFlux(one->unshared()));
 }
 
 template <int D>

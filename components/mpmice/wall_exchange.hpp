@@ -250,7 +250,8 @@ class WallExchange {
     volumes.divide();
     return volumes;
   }
-  /// What a cell that bodies fill passes on along an axis.
+  /// What a cell that bodies fill passes on along an axis; it keeps a little, so that round-off leaves nothing
+  /// negative.
   std::optional<Gift> passedBy(const Index<D>& cell, int axis) const {
     const Passing volumes = passingAt(cell);
     const auto d = static_cast<std::size_t>(axis);
@@ -262,7 +263,7 @@ class WallExchange {
       if (volume > 0 && volumes.through[e][d] > 0 && !space_.isEmpty(neighbour))
         mean.add(cells_.parcel(neighbour), volume / volumes.in[e] * volumes.through[e][d] / passed);
     });
-    return Gift{mean, passed / volumes.out[d]};
+    return Gift{mean, (1 - roundOffOfShares) * passed / volumes.out[d]};
   }
 
   /// What a donor can give. A donor with gas that is mostly free, or one that will be merged with such a neighbour,

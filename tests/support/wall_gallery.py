@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Hard cases for walls of bodies in a gas: python3 tests/support/wall_gallery.py [NAME...] prints a line for each.
 
-Each case changes ups/fsi/plug.ups: a plate between gas of pressure 2 and 1, in a closed box of 2 m. Lengths of cases are
-in cells of 1/32 m.
+Each case changes ups/fsi/plug.ups: a plate between gas of pressure 2 and 1, in a closed box of 2 m. Thicknesses are in
+cells of 1/32 m.
 """
 import json
 import pathlib
@@ -19,7 +19,8 @@ WIDTH = 1 / 32
 BODY = "MaterialProperties/MPM/material"
 LEFT = "MaterialProperties/ICE/material/geom_object[1]"
 TOTALS = ("GasMass", "GasEnergy", "GasWorkOnBodies", "LeastGasMass", "LeastGasHeat", "MergedCells")
-PLANE = ("Grid/Level/Box/resolution=[64,64,1]", f"Grid/Level/Box/upper=[2,2,{WIDTH}]", f"{BODY}/geom_object/res=[2,2,1]")
+PLANE = ("Grid/Level/Box/resolution=[64,64,1]", f"Grid/Level/Box/upper=[2,2,{WIDTH}]",
+         f"{BODY}/geom_object/res=[2,2,1]")
 
 
 def line(thickness, start=1.0, sets=()):
@@ -44,7 +45,8 @@ def oblique(thickness, sets=()):
     along, across = (1.1547, 2.0), thickness * WIDTH * 1.1547
     corners = ((.4, 0), (.4 + across, 0), (.4 + along[0], along[1]))
     shape = "".join(f"<p{k + 1}>[{x:.9g},{y:.9g},0]</p{k + 1}>" for k, (x, y) in enumerate(corners))
-    return (*PLANE, *sets), f"<parallelepiped label=\"plate\">{shape}<p4>[{corners[0][0]:.9g},0,1]</p4></parallelepiped>"
+    shape += f"<p4>[{corners[0][0]:.9g},0,1]</p4>"
+    return (*PLANE, *sets), f'<parallelepiped label="plate">{shape}</parallelepiped>'
 
 
 DISC = '<cylinder label="disc"><bottom>[1,1,-1]</bottom><top>[1,1,1]</top><radius>0.3</radius></cylinder>'

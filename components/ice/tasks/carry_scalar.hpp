@@ -29,11 +29,11 @@ void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<
   });
 }
 
-/// The space that bodies leave to the gas: the label of the free fraction of a cell, and the smallest fraction at which
-/// a cell counts as free of bodies.
+/// The space that bodies leave to the gas: the label of the free fraction of a cell, and the smallest fractions at
+/// which a cell counts as free of bodies, and as not full.
 struct RoomOfGas {
   const CellLabel<double>* free = nullptr;  ///< null where there are no bodies
-  double whole = 1;
+  double whole = 1, least = 0;
 };
 
 /// Variables of a scalar f and of its carrier gas that a step reads; all contents are per volume of the cell.
@@ -42,18 +42,21 @@ struct ScalarBefore {
   CellView<const double> density, held;
   CellView<const Vec<D>> below, above;
   std::optional<CellView<const double>> free = {};
-  double whole = 1;
+  double whole = 1, least = 0;
 
   static ScalarBefore from(auto& take, const CarriedScalar* scalar, const RoomOfGas& room = {}) {
     ScalarBefore before{.density = take(requiresOld(euler::c::density, 2)),
                         .held = take(requiresOld(scalar->held(), 2)),
                         .below = take(requiresNew(euler::c::massFlux<D>[0], 1)),
                         .above = take(requiresNew(euler::c::massFlux<D>[1], 1)),
-                        .whole = room.whole};
+                        .whole = room.whole,
+                        .least = room.least};
     if (room.free) before.free = take(requiresOld(*room.free, 2));
     return before;
   }
   bool hasGas(const Index<D>& cell) const { return density[cell] > 0; }
+  /// Whether the gas of a cell can flow: bodies do not fill the cell, apart from a trace of gas.
+  bool canFlow(const Index<D>& cell) const { return hasGas(cell) && (!free || (*free)[cell] >= least); }
   double value(const Index<D>& cell) const { return hasGas(cell) ? held[cell] / density[cell] : 0; }
   /// Whether a cell has no slopes because there is a body in it or next to it.
   bool isFlat(const Index<D>& cell) const {
@@ -149,7 +152,8 @@ class ScalarAtFaces {
 };
 
 /// The flux of a scalar through the faces of cells [kg/(m² s)]. If the cell from which gas flows, the donor, had no gas
-/// before the step, f is that of the receiver or, if the receiver had none either, the mean around the donor.
+/// before the step, f is the mean of the gas that flows into it; if none does, f is that of the receiver or, if the
+/// receiver had none either, the mean around the donor.
 template <int D>
 class ScalarFlux {
  public:
@@ -181,8 +185,9 @@ class ScalarFlux {
  private:
   /// f of the gas that flows out of a donor through its lower (0) or upper (1) face.
   double carriedFrom(const Index<D>& donor, const Index<D>& receiver, int axis, int side) const {
-    if (before_.hasGas(donor)) return faces_.at(donor, axis, side);
-    if (before_.hasGas(receiver)) return faces_.at(receiver, axis, 1 - side);
+    if (before_.canFlow(donor)) return faces_.at(donor, axis, side);
+    if (const auto passing = passedBy(donor)) return *passing;
+    if (before_.canFlow(receiver)) return faces_.at(receiver, axis, 1 - side);
     double held = 0, mass = 0;
     for (int d = 0; d < D; ++d)
       for (const Index<D>& at : {donor - Index<D>::unit(d), donor + Index<D>::unit(d)}) {
@@ -192,6 +197,19 @@ class ScalarFlux {
         mass += inverse * before_.density[at];
       }
     return mass > 0 ? held / mass : 0;
+  }
+  /// The mean f of the gas that flows into a cell from neighbours, which have no slopes because bodies fill the cell.
+  std::optional<double> passedBy(const Index<D>& cell) const {
+    double held = 0, mass = 0;
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        const Index<D> at = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
+        const double in = level_.inverseSpacing(d) * (side == 0 ? before_.below[cell][d] : -before_.above[cell][d]);
+        if (!(in > 0) || !before_.density.box().contains(at) || !before_.canFlow(at)) continue;
+        held += in * before_.value(at);
+        mass += in;
+      }
+    return mass > 0 ? std::optional(held / mass) : std::nullopt;
   }
   euler::Place placeOf(const Index<D>& cell, int axis, int side) const {
     Index<D> beyond = cell;
