@@ -187,7 +187,7 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
 template <int D>
 void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, const NewGas<D>& fresh) {
   const double free = fresh.free[cell], mass = fresh.held.density[cell];
-  if (mass == 0) return;
+  if (mass == 0 && fresh.held.totalEnergy[cell] == 0) return;
   const double internal = euler::internalEnergyIn<D>(fresh.held, cell);
   if (free < leastFreeVolume && mass > 0 && (internal >= 0 || gas.law)) return;
   const double density = mass / free, last = gas.last(density, internal / free), stiff = gas.heat(density, last);
@@ -199,10 +199,13 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
 /// without end.
 inline constexpr double nothingLeft = 1e-100;
 
-/// Empties a cell in which almost nothing is left.
+/// The energy per cell volume below which the energy of a cell without mass counts as 0 [J/m³].
+inline constexpr double noEnergyLeft = 1e-60;
+
+/// Empties a cell in which almost nothing is left. A cell without mass that has energy keeps it; checkGas refuses it.
 template <int D>
 void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, double>& held) {
-  if (!(std::abs(held.density[cell]) < nothingLeft)) return;
+  if (!(std::abs(held.density[cell]) < nothingLeft && std::abs(held.totalEnergy[cell]) < noEnergyLeft)) return;
   held.density[cell] = held.totalEnergy[cell] = 0;
   held.momentum[cell] = Vec<D>::Zero();
   for (const auto& mass : held.masses) mass[cell] = 0;
