@@ -1,8 +1,7 @@
 #pragma once
 
-#include <limits>
-
 #include <array>
+#include <limits>
 
 #include "components/euler/labels.hpp"
 #include "components/ice/labels.hpp"

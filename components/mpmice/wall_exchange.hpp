@@ -185,7 +185,7 @@ class WallExchange {
     double share = 1;
   };
 
-  /// Whether bodies fill a cell at the start of a step, except for a hole that has no gas.
+  /// Whether bodies fill a cell at the start of a step, or leave only a hole without gas.
   bool isFull(const Index<D>& cell) const { return cells_.free[cell] < narrowFreeVolume && space_.isEmpty(cell); }
 
   /// The volumes, per cell volume, that follow walls into and out of a cell that bodies fill, along each axis, and what

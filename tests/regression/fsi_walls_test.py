@@ -1,10 +1,15 @@
 #!/usr/bin/env python3
-"""The gallery of hard cases for walls of bodies in a gas: each ends, conserves, and lets nothing through."""
+"""The gallery of hard cases for walls of bodies in a gas: each ends, conserves, and lets nothing through; a vessel that
+bursts."""
 import pathlib
 import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import gas_and_bodies as fsi
+from fsi_test import changed, thin_plug
+from solids import SceneTest, globals_of, last_state
+from sus import run
 from wall_gallery import CASES, Case
 
 
@@ -20,6 +25,35 @@ class Walls(unittest.TestCase):
                 self.assertGreaterEqual(case.least("LeastGasHeat"), 0)
                 if case.leak is not None:
                     self.assertLessEqual(case.leak, case.most_leak)
+
+
+class ThinBodies(SceneTest):
+    def test_are_noted(self):
+        note = "is 0.75 cells thick along x: gas leaks through bodies thinner than 1.25 cells"
+        for cells, thin_walls, is_noted in ((.75, "false", True), (.75, "true", False), (1.25, "false", False)):
+            text = changed(thin_plug(cells), ("<ICE><adv", f"<ICE><thin_walls>{thin_walls}</thin_walls><adv"))
+            done = run(self.scene(text), options=("--check",))
+            self.assertEqual(done.code, 0, done.err)
+            self.assertEqual(note in done.err, is_noted, done.err)
+
+
+class Vessel(SceneTest):
+    UNTIL = "Time/maxTime=0.1"
+
+    def test_is_stretched_by_its_pressure(self):
+        """Half as much again as the larger errors of the ring in ups/fsi/README.md."""
+        errors = fsi.ring(50)
+        self.assertLess(max(abs(errors["u"]), abs(errors["hoop"])), 1.5 * 1.4e-2, errors)
+
+    def test_breaks_and_loses_no_energy(self):
+        failed = last_state(fsi.scene("vessel"), "p.localizedMPM", sets=(self.UNTIL,))["p.localizedMPM [1]"]
+        self.assertGreater(sum(failed), 100)
+        names = ("GasEnergy", "GasWorkOnBodies")
+        text = fsi.scene("vessel").read_text().replace("<save ", '<save label="GasWorkOnBodies"/><save ', 1)
+        lines = globals_of(self.scene(text), *names, sets=(self.UNTIL,))
+        sums = [energy[1] + work[1] for energy, work in zip(*lines.values())]
+        # Gas has not yet reached the open sides.
+        self.assertLess(max(abs(one / sums[0] - 1) for one in sums), 1e-12)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,10 @@ class ChangeOfAGlobal(unittest.TestCase):
     def test_is_the_mean_of_the_last_quarter_less_the_start(self):
         self.assertEqual(self.measured("change.Energy", ["0 1", "1 100", "2 100", "3 10", "4 12"]), 10)
 
+    def test_is_the_last_value_less_the_start_if_asked(self):
+        self.assertEqual(self.measured("last.Energy=4", ["0 1", "1 100", "2 100", "3 10", "4 12"]), 11)
+        self.assertAlmostEqual(Change.of("last.Energy=4").error(5, None), .25)
+
     def test_takes_one_number_of_a_vector(self):
         self.assertEqual(self.measured("change.Energy[1]", ["0 0 1 0", "1 0 5 0"]), 4)
 
