@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace tushar {
@@ -33,7 +34,7 @@ class Lanes {
   Lanes(Register values) : values_(values) {}
   /// Constructs a register whose lane k contains value(k).
   template <class Value>
-  static Lanes of(Value&& value) {
+  [[gnu::always_inline]] static Lanes of(Value&& value) {
     return fill(value, std::make_integer_sequence<int, count>());
   }
 
@@ -93,7 +94,7 @@ class Lanes {
 
  private:
   template <class Value, int... Lane>
-  static Lanes fill(Value& value, std::integer_sequence<int, Lane...>) {
+  [[gnu::always_inline]] static Lanes fill(Value& value, std::integer_sequence<int, Lane...>) {
     return Register{value(Lane)...};
   }
 
@@ -231,17 +232,31 @@ using LaneIntegers [[gnu::vector_size(Lanes::count * sizeof(int))]] = int;
 inline Lanes min(Lanes a, Lanes b) { return select(b < a, b, a); }
 inline Lanes max(Lanes a, Lanes b) { return select(a < b, b, a); }
 inline Lanes clamp(Lanes x, Lanes low, Lanes high) { return min(max(x, low), high); }
-inline Lanes abs(Lanes x) {
-  return Lanes::of([&](int lane) { return std::abs(x[lane]); });
+[[gnu::always_inline]] inline Lanes abs(Lanes x) {
+  constexpr auto withoutSign = std::numeric_limits<long long>::max();
+  return Lanes((Lanes::Register)((Lanes::Mask)x.values() & withoutSign));
 }
-inline Lanes nearbyint(Lanes x) {
+[[gnu::always_inline]] inline Lanes nearbyint(Lanes x) {
+#if defined(__AVX512F__)
+  constexpr int nearest = _MM_FROUND_CUR_DIRECTION | _MM_FROUND_NO_EXC;
+  return Lanes((Lanes::Register)_mm512_roundscale_pd((__m512d)x.values(), nearest));
+#elif defined(__AVX__)
+  return Lanes((Lanes::Register)_mm256_round_pd((__m256d)x.values(), _MM_FROUND_NEARBYINT));
+#else
   return Lanes::of([&](int lane) { return std::nearbyint(x[lane]); });
+#endif
 }
-inline Lanes widen(LaneIntegers whole) {
-  return Lanes::of([&](int lane) { return static_cast<double>(whole[lane]); });
+[[gnu::always_inline]] inline Lanes widen(LaneIntegers whole) {
+  return Lanes(__builtin_convertvector(whole, Lanes::Register));
 }
-inline Lanes sqrt(Lanes x) {
+[[gnu::always_inline]] inline Lanes sqrt(Lanes x) {
+#if defined(__AVX512F__)
+  return Lanes((Lanes::Register)_mm512_sqrt_pd((__m512d)x.values()));
+#elif defined(__AVX__)
+  return Lanes((Lanes::Register)_mm256_sqrt_pd((__m256d)x.values()));
+#else
   return Lanes::of([&](int lane) { return std::sqrt(x[lane]); });
+#endif
 }
 /// Whether a condition is true in every lane.
 inline bool all(Lanes::Mask mask) {
@@ -255,15 +270,23 @@ inline bool all(Lanes::Mask mask) {
   return holds;
 #endif
 }
+/// Combines all lanes into one number: those of the upper half with those of the lower half, then again the halves of
+/// the result.
+template <int numbers = Lanes::count, class Combine>
+[[gnu::always_inline]] inline double combined(Lanes x, Combine&& combine) {
+  if constexpr (numbers == 1) {
+    return x[0];
+  } else {
+    return combined<numbers / 2>(combine(x, window<numbers / 2>(x, x)), combine);
+  }
+}
 /// The largest number in any lane.
-inline double greatest(Lanes x) {
-  constexpr int half = Lanes::count / 2;
-  std::array<double, half> most;
-  for (int lane = 0; lane < half; ++lane) most[lane] = x[lane] > x[lane + half] ? x[lane] : x[lane + half];
-  for (int width = half / 2; width > 0; width /= 2)
-    for (int lane = 0; lane < width; ++lane)
-      most[lane] = most[lane] > most[lane + width] ? most[lane] : most[lane + width];
-  return most[0];
+[[gnu::always_inline]] inline double greatest(Lanes x) {
+  return combined(x, [](Lanes low, Lanes high) { return select(low > high, low, high); });
+}
+/// The sum of all lanes.
+[[gnu::always_inline]] inline double total(Lanes x) {
+  return combined(x, [](Lanes low, Lanes high) { return low + high; });
 }
 
 }  // namespace tushar

@@ -29,12 +29,12 @@ class Look {
   /// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite. The smallest number is
   /// computed only if it is needed: the smallest of 1 and all numbers that are not NaN.
   bool surelyHolds(Bound bound) const {
-    double least = last_least_, sum = last_sum_;
-    for (std::size_t k = 0; k < registers; ++k)
-      for (int lane = 0; lane < Lanes::count; ++lane) {
-        lower(least, least_[k][lane]);
-        sum += sum_[k][lane];
-      }
+    Lanes lanesLeast = least_[0], lanesSum = sum_[0];
+    for (std::size_t k = 1; k < registers; ++k) {
+      lower(lanesLeast, least_[k]);
+      lanesSum += sum_[k];
+    }
+    const double least = std::min(last_least_, -greatest(-lanesLeast)), sum = last_sum_ + total(lanesSum);
     return std::isfinite(sum) && (!SeeksLeast || (bound == Bound::positive ? least > 0 : least >= 0));
   }
 

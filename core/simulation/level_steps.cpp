@@ -44,9 +44,9 @@ data::Minimum LevelSteps::stable() {
 std::optional<data::Minimum> LevelSteps::findStable(const tasks::StepInfo& at) {
   std::optional<data::Minimum>& known = stable_[static_cast<std::size_t>(at.level)];
   if (known) return std::nullopt;
-  run_.warehouse.resetReduction(number(data::delT));
+  run_.warehouse.resetReduction(run_.delT);
   if (auto asked = run_.scheduler.run(run_.phases.stableTimeStep, at)) return asked;
-  known = run_.warehouse.reduction<data::Minimum>(number(data::delT));
+  known = run_.warehouse.reduction<data::Minimum>(run_.delT);
   return std::nullopt;
 }
 
@@ -74,7 +74,7 @@ std::optional<data::Minimum> LevelSteps::advance(const tasks::StepInfo& whole) {
     throw;
   }
   run_.scheduler.forgetNew(graph);
-  run_.warehouse.reduction<data::Minimum>(number(data::delT)).value = whole.delT;
+  run_.warehouse.reduction<data::Minimum>(run_.delT).value = whole.delT;
   if (!asked) return asked;
   before.restore();
   stable_ = stableBefore;
@@ -82,7 +82,7 @@ std::optional<data::Minimum> LevelSteps::advance(const tasks::StepInfo& whole) {
 }
 
 std::optional<data::Minimum> LevelSteps::advanceLevel(const tasks::StepInfo& at) {
-  run_.warehouse.reduction<data::Minimum>(number(data::delT)).value = at.delT;
+  run_.warehouse.reduction<data::Minimum>(run_.delT).value = at.delT;
   run_.warehouse.reduction<data::Minimum>(number(tasks::partOfStep)).value = at.part;
   if (auto asked = run_.scheduler.run(run_.phases.timeAdvance, at)) return asked;
   if (at.level + 1 < levels_) {

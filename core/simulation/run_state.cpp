@@ -24,6 +24,7 @@ RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_
       clock(startedAt),
       progress(options.quiet || !ranks.isFirst(), stdout) {
   phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid, problem.smallerSteps);
+  delT = table.number(data::delT, -1);
   warehouse.grow(materials());
 }
 

@@ -58,6 +58,7 @@ struct RunState {
   TimeControl time;
   RunClock clock;
   Progress progress;
+  int delT;              ///< index of the variable delT
   Totals totalsAtStart;  ///< totals at the start of the run, or of the run that it continues
 };
 

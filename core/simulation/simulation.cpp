@@ -223,7 +223,7 @@ void Simulation::advance() {
   tasks::TaskGraph& graph = run_.phases.timeAdvance;
   run_.warehouse.beginStep();
   const data::Minimum stable = stableStep();
-  auto& dt = run_.warehouse.reduction<data::Minimum>(run_.table.number(data::delT, -1));
+  auto& dt = run_.warehouse.reduction<data::Minimum>(run_.delT);
   dt = {time.next(stable, outputs_.nextTime()), stable.reason};
   const KeptReductions before(run_.warehouse, graph.reductions());
   try {
@@ -238,10 +238,9 @@ void Simulation::advance() {
 
 data::Minimum Simulation::stableStep() {
   if (level_steps_) return level_steps_->stable();
-  const int delT = run_.table.number(data::delT, -1);
-  run_.warehouse.resetReduction(delT);
+  run_.warehouse.resetReduction(run_.delT);
   run_.scheduler.run(run_.phases.stableTimeStep, {run_.time.step() + 1, run_.time.time()});
-  return run_.warehouse.reduction<data::Minimum>(delT);
+  return run_.warehouse.reduction<data::Minimum>(run_.delT);
 }
 
 std::optional<data::Minimum> Simulation::tryStep(double dt) {

@@ -11,14 +11,18 @@ data::Variable TaskContext::variable(int access) const {
 
 TaskContext::ParticlePlace TaskContext::particlePlace(int access) const {
   const BoundAccess& bound = (*accesses_)[access];
-  return {variable(access).values, &warehouse_->particles(bound.set, material_, patch_->id()),
-          bound.ghost > 0 ? patch_->cellsWithin(bound.ghost) : patch_->cells()};
+  const data::ParticleSet& set = warehouse_->particles(bound.set, material_, patch_->id());
+  std::byte* const values = variable(access).values;
+  if (bound.ghost == 0) return {values, &set, patch_->cells()};
+  const bool isAll = bound.ghost == warehouse_->table().reach(material_);
+  return {values, &set, isAll ? set.cells() : patch_->cellsWithin(bound.ghost)};
 }
 
 TaskContext::GridPlace TaskContext::gridPlace(int access, data::Centring centring) const {
   const BoundAccess& bound = (*accesses_)[access];
   const data::Variable found = variable(access);
   if (bound.own) return {found.values, found.stored, warehouse_->grid().ownNodes(patch_->id())};
+  if (bound.ghost == warehouse_->table().ghost(bound.variable)) return {found.values, found.stored, found.stored};
   const bool isOfNodes = centring == data::Centring::node;
   return {found.values, found.stored, isOfNodes ? patch_->nodesWithin(bound.ghost) : patch_->cellsWithin(bound.ghost)};
 }

@@ -116,10 +116,17 @@ class Relocation {
     std::vector<Entry> entries;             ///< ascending
     std::size_t packed = 0;                 ///< index of the first departed particle among those of all patches
     int count = 0;                          ///< number of particles in the new set
+    int furthest = -1;                      ///< greatest previous index of these particles
     std::optional<Escape> escape;
     LostParticles losing;
 
-    /// Whether all particles of the patch keep their indices.
+    /// Whether the particles of the new set have the indices that they had before. No particle enters from another
+    /// patch, and none leaves to one.
+    bool keepsIndices() const {
+      const bool isOneRun = runs.empty() || (runs.size() == 1 && runs.front().to == runs.front().from);
+      return isOneRun && entries.empty() && outgoing.empty();
+    }
+    /// Whether all particles of the patch keep their cells and indices.
     bool staysAsItIs(data::Generation to) const {
       return to == data::Generation::old && departed.empty() && incoming.empty();
     }
@@ -188,6 +195,7 @@ class Relocation {
   /// the indices in `to`, and returns the number of cells.
   static int keepCells(PatchMoves& moves, std::span<const data::ParticleRange> from, const int* firstIncoming,
                        std::size_t nextDeparted, data::ParticleRange* to);
+  static void letIn(PatchMoves& moves, int incoming);
   static void mergeCell(PatchMoves& moves, const data::ParticleRange& before, int firstIncoming, const ParticleId* ids,
                         std::size_t& nextDeparted);
   void carry(const Carried& carried, std::size_t place, data::Generation to, int material, Moves& moves);

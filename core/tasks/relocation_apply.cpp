@@ -73,6 +73,7 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
   moves.entries.clear();
   moves.entries.reserve(moves.incoming.size());
   moves.count = 0;
+  moves.furthest = -1;
   std::size_t nextDeparted = 0;
   const int rowLength = patch.cells().extent(0);
   grid::forEach<3>(patch.cells().rowStarts(), [&](const Index3& cell) {
@@ -98,6 +99,7 @@ void Relocation::keepAll(PatchMoves& moves, int count) {
   moves.runs.clear();
   moves.entries.clear();
   moves.count = 0;
+  moves.furthest = -1;
   keep(moves, 0, count);
 }
 
@@ -110,6 +112,7 @@ void Relocation::keep(PatchMoves& moves, int first, int count) {
   else
     moves.runs.push_back({moves.count, first, count});
   moves.count += count;
+  moves.furthest = std::max(moves.furthest, first + count - 1);
 }
 
 int Relocation::keepCells(PatchMoves& moves, std::span<const ParticleRange> from, const int* firstIncoming,
@@ -127,12 +130,22 @@ int Relocation::keepCells(PatchMoves& moves, std::span<const ParticleRange> from
   return k;
 }
 
+/// Appends an incoming particle. It is kept where it is if it has come from the patch itself, to the index that it had,
+/// and all particles before it have only changed places among themselves: then no other move crosses its place.
+void Relocation::letIn(PatchMoves& moves, int incoming) {
+  const int departed = moves.incoming[incoming].from;
+  const int from = departed < 0 ? std::numeric_limits<int>::max() : moves.departed[departed];
+  if (from == moves.count && moves.furthest < from) return keep(moves, from, 1);
+  moves.furthest = std::max(moves.furthest, from);
+  moves.entries.push_back({moves.count++, incoming});
+}
+
 /// Appends the particles of one cell, in the order of their ids: those that stay, and those that enter.
 void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int firstIncoming, const ParticleId* ids,
                            std::size_t& nextDeparted) {
   int waiting = firstIncoming;
   const auto letInOne = [&] {
-    moves.entries.push_back({moves.count++, waiting});
+    letIn(moves, waiting);
     waiting = moves.incoming[waiting].next;
   };
   for (int p = before.first; p < before.last; ++p) {
@@ -170,10 +183,13 @@ void Relocation::carry(const Carried& carried, std::size_t place, Generation to,
   const auto placeOf = [&](const Patch& patch) {
     return static_cast<std::size_t>(patch.id() - warehouse_->grid().firstPatch());
   };
-  const auto stands = [&](const Patch& patch) { return isInPlace && of(moves, patch.id()).staysAsItIs(to); };
-  if (moves.departed > 0) forEachPatch([&](const Patch& patch) { pack(move, placeOf(patch), of(moves, patch.id())); });
+  const auto keepsIndices = [&](const Patch& patch) { return of(moves, patch.id()).keepsIndices(); };
+  if (moves.departed > 0)
+    forEachPatch([&](const Patch& patch) {
+      if (!keepsIndices(patch)) pack(move, placeOf(patch), of(moves, patch.id()));
+    });
   forEachPatch([&](const Patch& patch) {
-    if (!stands(patch)) moveOn(move, placeOf(patch), moves);
+    if (!isInPlace || !keepsIndices(patch)) moveOn(move, placeOf(patch), moves);
   });
   warehouse_->takeBack(packed);
   warehouse_->takeBack(outgrown);
