@@ -115,7 +115,7 @@ Variable Warehouse::variable(Generation generation, int number, int patch) {
 
 void Warehouse::allocate(Storage& storage, const Label& label, const SharedSlots& slots, std::size_t values) {
   storage.held = true;
-  storage.slots = slots;
+  if (storage.slots != slots) storage.slots = slots;
   pool_.reserve(storage.memory, values * label.bytes);
   if (!checked || label.number != Number::real) return;
   std::fill_n(reinterpret_cast<double*>(storage.memory.data()), values * label.bytes / sizeof(double),
@@ -156,13 +156,14 @@ std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const 
 }
 
 /// Releases the memory of a variable, unless the buffer is small: releasing and finding a small buffer again takes
-/// longer than using it.
+/// longer than using it. The slots stay with the memory.
 void Warehouse::free(Generation generation, int number) {
   constexpr std::size_t little = std::size_t{1} << 13;
   Storage& freed = storage(generation, number);
   freed.held = false;
+  if (freed.memory.capacity() <= little) return;
   freed.slots.reset();
-  if (freed.memory.capacity() > little) pool_.takeBack(freed.memory);
+  pool_.takeBack(freed.memory);
 }
 
 void Warehouse::layOut(Generation generation, int material, Generation base) {

@@ -39,10 +39,10 @@ void Relocation::apply(int material, const std::vector<Carried>& carried, Genera
   warehouse_->layOut(Generation::fresh, material, Generation::old);
   const auto stands = [&](const PatchMoves& ofPatch) { return ofPatch.staysAsItIs(to); };
   if (std::all_of(moves.patches.begin(), moves.patches.end(), stands)) return;
-  moves.departed = 0;
-  for (const Patch& patch : warehouse_->grid().patches()) {
-    PatchMoves& ofPatch = of(moves, patch.id());
-    ofPatch.packed = std::exchange(moves.departed, moves.departed + ofPatch.departed.size());
+  moves.packed = 0;
+  for (PatchMoves& ofPatch : moves.patches) {
+    const std::size_t count = ofPatch.keepsIndices() ? 0 : ofPatch.departed.size();
+    ofPatch.packed = std::exchange(moves.packed, moves.packed + count);
   }
   for (std::size_t place = 0; place < carried.size(); ++place) carry(carried[place], place, to, material, moves);
 }
@@ -161,30 +161,32 @@ void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int f
 
 /// Moves a variable to its new slots, within its memory if it is already in generation `to` and the slots allow this.
 void Relocation::carry(const Carried& carried, std::size_t place, Generation to, int material, Moves& moves) {
-  const data::SharedSlots before = warehouse_->slots(carried.from, carried.variable);
-  const data::SharedSlots after = warehouse_->slotsOfSets(Generation::fresh, material);
+  const data::SharedSlots& after = warehouse_->slotsOfSets(Generation::fresh, material);
+  const data::SharedSlots& current = warehouse_->slots(carried.from, carried.variable);
+  const data::SharedSlots outdated = current == after ? nullptr : current;
   data::Buffer outgrown;
   if (carried.from == to)
     outgrown = warehouse_->follow(to, carried.variable, Generation::fresh);
   else
     warehouse_->allocateParticles(to, carried.variable, Generation::fresh);
   const std::size_t bytes = warehouse_->table()[carried.variable].label->bytes;
-  data::Buffer packed = warehouse_->lend(moves.departed * bytes);
+  data::Buffer packed;
+  if (moves.packed > 0) packed = warehouse_->lend(moves.packed * bytes);
   const std::byte* from =
       outgrown.capacity() > 0 ? outgrown.data() : warehouse_->memory(carried.from, carried.variable);
   const Move move{.bytes = bytes,
                   .from = from,
                   .to = warehouse_->memory(to, carried.variable),
-                  .before = before.get(),
+                  .before = outdated ? outdated.get() : after.get(),
                   .after = after.get(),
                   .migrants = moves.migration.values(place),
                   .packed = packed.data()};
-  const bool isInPlace = from == move.to;
+  const bool isInPlace = from == move.to && !outdated;
   const auto placeOf = [&](const Patch& patch) {
     return static_cast<std::size_t>(patch.id() - warehouse_->grid().firstPatch());
   };
   const auto keepsIndices = [&](const Patch& patch) { return of(moves, patch.id()).keepsIndices(); };
-  if (moves.departed > 0)
+  if (moves.packed > 0)
     forEachPatch([&](const Patch& patch) {
       if (!keepsIndices(patch)) pack(move, placeOf(patch), of(moves, patch.id()));
     });
