@@ -270,6 +270,8 @@ inline bool all(Lanes::Mask mask) {
   return holds;
 #endif
 }
+/// Whether a condition is true in any lane.
+inline bool any(Lanes::Mask mask) { return !all(~mask); }
 /// Combines all lanes into one number: those of the upper half with those of the lower half, then again the halves of
 /// the result.
 template <int numbers = Lanes::count, class Combine>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/gas/conserving/batch.hpp"
 #include "components/mpm/gas/conserving/grid_sums.hpp"
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/material.hpp"
@@ -7,7 +8,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Adds values to a Sum, with one lane for each cell in a part of a row.
+/// Adds values to a Sum, in lanes that are merged at the end.
 class LanesSum {
  public:
   explicit LanesSum(Sum& sum) : sum_(&sum) {}
@@ -33,14 +34,10 @@ void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, 
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy, Sum& kinetic,
                Sum& internal, Sum& total) {
   LanesSum kineticSum(kinetic), internalSum(internal), totalSum(total);
-  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
-    std::array<double, Lanes::count> ke{}, ie{};
-    for (int lane = 0; lane < cells.count; ++lane)
-      for (const int p : mass.in(cells.at(lane))) {
-        ke[lane] += mass[p] * (0.5 * velocity[p].squaredNorm() + affineEnergy[p]);
-        ie[lane] += mass[p] * internalEnergy[p];
-      }
-    const Lanes moving = Lanes::at(ke.data()), warm = Lanes::at(ie.data());
+  forEachBatch<D>(patch.cells(), mass, [&](const Batch<D>& batch) {
+    const Lanes m = batch.only(load(mass, batch));
+    const Lanes moving = m * (0.5 * load(velocity, batch).squaredNorm() + load(affineEnergy, batch));
+    const Lanes warm = m * load(internalEnergy, batch);
     kineticSum.add(moving);
     internalSum.add(warm);
     totalSum.add(moving + warm);

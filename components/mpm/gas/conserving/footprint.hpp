@@ -42,10 +42,9 @@ struct Span {
       from = max(from, -0.5 - number);
       to = min(to, last + 0.5 - number);
     }
-    const double least = -greatest(-from), furthest = greatest(to);
-    while (below < Overhang && least < -0.5 - below) ++below;
+    while (below < Overhang && any(from < -0.5 - below)) ++below;
     cells = below + 1;
-    while (cells < below + 1 + Overhang && furthest > cells - below - 0.5) ++cells;
+    while (cells < below + 1 + Overhang && any(to > cells - below - 0.5)) ++cells;
     first = cell - below;
     lower = origin + from * h;
     upper = origin + to * h;
