@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -60,6 +61,35 @@ TEST(Lanes, KnowWhichOfThemAreNoNumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Lanes::Mask mask = isNaN(Lanes::of([&](int lane) { return lane == 1 ? nan : 1.0; }));
   for (int lane = 0; lane < Lanes::count; ++lane) EXPECT_EQ(mask[lane] != 0, lane == 1);
+}
+
+TEST(Lanes, RoundAndTakeRootsAsSingleNumbersDo) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), large = std::numeric_limits<double>::infinity();
+  for (const double x : {0.0, -0.0, 0.5, 1.5, 2.5, -0.5, -2.5, 0.49999999999999994, 3.7, -1e300, 1e15 + 0.5, large})
+    for (int lane = 0; lane < Lanes::count; ++lane) {
+      const Lanes all = Lanes::of([&](int k) { return k == lane ? x : 0.25 * k; });
+      EXPECT_EQ(nearbyint(all)[lane], std::nearbyint(x));
+      EXPECT_EQ(std::signbit(nearbyint(all)[lane]), std::signbit(std::nearbyint(x)));
+      EXPECT_EQ(abs(all)[lane], std::abs(x));
+      EXPECT_FALSE(std::signbit(abs(all)[lane]));
+      if (x >= 0) EXPECT_EQ(sqrt(all)[lane], std::sqrt(x));
+    }
+  EXPECT_TRUE(std::isnan(nearbyint(Lanes(nan))[0]) && std::isnan(abs(Lanes(nan))[0]));
+  LaneIntegers whole;
+  for (int lane = 0; lane < Lanes::count; ++lane) whole[lane] = 3 - lane;
+  for (int lane = 0; lane < Lanes::count; ++lane) EXPECT_EQ(widen(whole)[lane], 3 - lane);
+}
+
+TEST(Lanes, FindTheGreatestTheTotalAndWhetherAnySatisfiesACondition) {
+  for (int lane = 0; lane < Lanes::count; ++lane) {
+    const Lanes all = Lanes::of([&](int k) { return k == lane ? 7.0 : -1.0 - k; });
+    double sum = 0;
+    for (int k = 0; k < Lanes::count; ++k) sum += all[k];
+    EXPECT_EQ(greatest(all), 7);
+    EXPECT_EQ(total(all), sum);
+    EXPECT_TRUE(any(all > 6));
+    EXPECT_FALSE(any(all > 7));
+  }
 }
 
 }  // namespace
