@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/solvers/newton_rules.hpp"
 #include "core/solvers/petsc_objects.hpp"
 
 namespace tushar::solvers {
@@ -19,8 +20,9 @@ struct Newton {
   PetscMatrix& matrix;
   Balance& balance;
   GhostedVector &u, &r;
+  SmallChanges changes;
   OwnedVec lastU, lastResidual, change;
-  double greatestSquare = 0, firstEnergy = 0, assembly = 0, setup = 0;
+  double assembly = 0, setup = 0;
   std::exception_ptr thrown;
 };
 
@@ -64,8 +66,7 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
   return negligible;
 }
 
-/// Converged if |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration, or if only
-/// round-off is left of r after an iteration. Round-off is not tested before the first iteration, because a load may be
+/// Converged if the changes are small, or if only round-off is left of r after an iteration. Round-off is not tested before the first iteration, because a load may be
 /// as small as the round-off of a large stiffness, but must still act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
@@ -84,11 +85,7 @@ PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal,
       check(VecWAXPY(newton.change, -1, newton.lastU, u));
       check(VecNorm(newton.change, NORM_2, &size));
       check(VecDot(newton.change, newton.lastResidual, &energy));
-      const double square = size * size;
-      newton.greatestSquare = std::max(newton.greatestSquare, square);
-      if (iteration == 1) newton.firstEnergy = std::abs(energy);
-      if (square <= newton.settings.displacement * newton.greatestSquare &&
-          std::abs(energy) <= newton.settings.energy * newton.firstEnergy)
+      if (newton.changes.after(static_cast<int>(iteration), size * size, energy))
         *reason = SNES_CONVERGED_SNORM_RELATIVE;
     }
     check(VecCopy(u, newton.lastU));
@@ -111,7 +108,7 @@ void configure(SNES snes, Newton& newton, Vec r) {
   check(SNESGetKSP(snes, &krylov));
   check(SNESSetFromOptions(snes));
   check(KSPSetResidualHistory(krylov, nullptr, settings.linear.maxIterations + 1, PETSC_TRUE));
-  configure(krylov, settings.linear);
+  configure(krylov, settings.linear, "gmres");
   newton.balance.attach(krylov);
 }
 
@@ -146,7 +143,7 @@ Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const N
   std::vector<double> values(owned);
   const PetscVector solution(unknowns, u.first(owned)), r(unknowns, values);
   Balance balance(r);
-  Newton newton{problem, settings, matrix, balance, seen, added, {}, {}, {}, 0, 0, 0, 0, nullptr};
+  Newton newton{problem, settings, matrix, balance, seen, added, SmallChanges(settings), {}, {}, {}, 0, 0, nullptr};
   for (OwnedVec* work : {&newton.lastU, &newton.lastResidual, &newton.change})
     check(VecDuplicate(solution, work->address()));
   OwnedSnes snes;
