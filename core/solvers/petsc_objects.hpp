@@ -96,12 +96,13 @@ class Balance {
  public:
   /// Constructs the scaling for right-hand sides with the layout of `b`.
   explicit Balance(Vec b);
-  /// Chooses S and scales the matrix.
-  void scale(PetscMatrix& matrix);
+  /// Scales the matrix; with `isNew`, chooses S by this matrix.
+  void scale(PetscMatrix& matrix, bool isNew);
   /// Makes `krylov`, whose matrix has been scaled, accept the unscaled b and return the unscaled x.
   void attach(KSP krylov);
 
  private:
+  void choose(const PetscMatrix& matrix);
   static PetscErrorCode before(KSP, Vec b, Vec, void* balance);
   static PetscErrorCode after(KSP, Vec b, Vec x, void* balance);
 

@@ -90,7 +90,8 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   };
   /// The stiffness of the points that touch the same nodes: rows[D n + i] for component i of node n.
   struct Local {
-    Slopes slopes;  ///< of the latest point
+    std::array<Slopes, 2> slopes;  ///< of the latest point and of the next
+    int latest = 0;
     std::vector<Rows> rows = std::vector<Rows>(D * mostTouches<D>);
     std::vector<double> values;  ///< the same, as the matrix takes them
   };
@@ -115,11 +116,16 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   void shareNodes(const std::vector<double>& sums);
   void measureStiffness();
   void supportNodes();
+  Slopes slopesOf(std::size_t point) const {
+    Slopes slopes;
+    findSlopes(point, slopes);
+    return slopes;
+  }
   const NodeTouch<D>* touchesOf(std::size_t point) const { return &touch_[point * touches_]; }
   Matrix3 displacementGradient(std::size_t point, std::span<const double> u) const;
   bool addInternalForces(std::span<const double> u, std::span<double> r);
   void addInternalForce(const PointRun& run, std::span<double> r) const;
-  Slopes slopesOf(std::size_t point) const;
+  void findSlopes(std::size_t point, Slopes& slopes) const;
   Spatial spatialTangent(const PointGroup& group, int k, const Matrix9& tangent) const;
   void addStiffnessOf(const Spatial& a, Local& local) const;
   /// Adds the stiffness between nodes to the matrix, without the rows and columns of prescribed displacements.

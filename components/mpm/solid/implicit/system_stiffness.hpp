@@ -11,8 +11,9 @@
 namespace tushar::mpm::solid::implicit {
 
 template <int D>
-auto ImplicitSystem<D>::slopesOf(std::size_t point) const -> Slopes {
-  Slopes slopes;
+void ImplicitSystem<D>::findSlopes(std::size_t point, Slopes& slopes) const {
+  slopes.count = 0;
+  slopes.hasHoop = false;
   const NodeTouch<D>* touch = touchesOf(point);
   for (int k = 0; k < touches_; ++k) {
     if (touch[k].node < 0) continue;
@@ -29,7 +30,6 @@ auto ImplicitSystem<D>::slopesOf(std::size_t point) const -> Slopes {
       for (int j = 0; j < D; ++j) slopes.along[j][i][n] = 0;
       slopes.hoop[i][n] = 0;
     }
-  return slopes;
 }
 
 /// V0 a_ijkl / stretch with a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL, for the components that the nodes cause.
@@ -64,7 +64,7 @@ auto ImplicitSystem<D>::spatialTangent(const PointGroup& group, int k, const Mat
 template <int D>
 void ImplicitSystem<D>::addStiffnessOf(const Spatial& a, Local& local) const {
   constexpr int count = D * D + 1, hoop = D * D;
-  const Slopes& slopes = local.slopes;
+  const Slopes& slopes = local.slopes[local.latest];
   const int padded = slopes.padded();
   for (int n = 0; n < slopes.count; ++n)
     for (int i = 0; i < D; ++i) {
@@ -122,8 +122,9 @@ auto ImplicitSystem<D>::volumeForce(const PointGroup& group, int k, const Matrix
 
 template <int D>
 void ImplicitSystem<D>::addStiffness(Local& local, solvers::Matrix& matrix) const {
-  const int count = local.slopes.count;
-  const std::span<const int> numbers(local.slopes.numbers.data(), count);
+  const Slopes& slopes = local.slopes[local.latest];
+  const int count = slopes.count;
+  const std::span<const int> numbers(slopes.numbers.data(), count);
   local.values.resize(std::size_t(D * count) * (D * count));
   double* value = local.values.data();
   for (int n = 0; n < count; ++n)
@@ -147,14 +148,15 @@ void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& ma
   bool isFirst = true;
   states_.forEachTangent(run, [&](int k, const Matrix9& tangent) {
     const std::size_t at = group.first + k;
-    const Slopes slopes = slopesOf(at);
-    if (isFirst || !slopes.hasSameNodes(local.slopes)) {
+    Slopes& slopes = local.slopes[1 - local.latest];
+    findSlopes(at, slopes);
+    if (isFirst || !slopes.hasSameNodes(local.slopes[local.latest])) {
       if (!isFirst) addStiffness(local, matrix);
       for (int row = 0; row < D * slopes.count; ++row)
         for (int i = 0; i < D; ++i) std::fill_n(local.rows[row][i].begin(), slopes.padded(), 0.0);
     }
     isFirst = false;
-    local.slopes = slopes;
+    local.latest = 1 - local.latest;
     addStiffnessOf(spatialTangent(group, k, tangent), local);
     if (!shares) return;
     forces.push_back(volumeForce(group, k, tangent, slopes));
