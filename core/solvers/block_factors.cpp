@@ -75,6 +75,17 @@ BlockFactors::BlockFactors(const BlockMatrix& matrix) : block_(matrix.block()) {
   makeFronts(structureOf(matrix));
   connectFronts();
   placeEntries(matrix);
+  for (int row = 0; row < matrix.rows(); ++row)
+    pattern_.emplace_back(matrix.columns(row).begin(), matrix.columns(row).end());
+}
+
+bool BlockFactors::suits(const BlockMatrix& matrix) const {
+  if (matrix.block() != block_ || matrix.rows() != static_cast<int>(pattern_.size())) return false;
+  for (int row = 0; row < matrix.rows(); ++row) {
+    const std::span<const int> columns = matrix.columns(row);
+    if (!std::equal(columns.begin(), columns.end(), pattern_[row].begin(), pattern_[row].end())) return false;
+  }
+  return true;
 }
 
 void BlockFactors::setOrder(std::vector<int> original) {

@@ -18,6 +18,8 @@ class BlockFactors {
   /// Matrix Anal. Appl. 17 (1996) 886).
   explicit BlockFactors(const BlockMatrix& matrix);
 
+  /// Whether a matrix has the pattern for which the order was chosen.
+  bool suits(const BlockMatrix& matrix) const;
   /// Factorizes a matrix with the same pattern. Returns false if it is singular.
   bool factorize(const BlockMatrix& matrix);
   /// Replaces b by the solution x of A x = b.
@@ -26,7 +28,7 @@ class BlockFactors {
  private:
   /// Unknowns that are eliminated together, and those on which they act.
   struct Front {
-    std::vector<int> blocks;      ///< block rows: first those that are eliminated, then the others, in order
+    std::vector<int> blocks;      ///< places in the order of elimination: of its own blocks, then of those below
     int eliminated = 0;           ///< number of blocks that are eliminated
     std::vector<int> children;    ///< fronts whose remaining matrices it receives
     std::vector<int> inParent;    ///< for each of the other blocks, its place in the parent
@@ -54,6 +56,7 @@ class BlockFactors {
   bool eliminate(Front& front);
 
   int block_;
+  std::vector<std::vector<int>> pattern_;  ///< the block columns of each block row
   std::vector<int> original_, place_;  ///< block row by place in the order of elimination, and the inverse
   std::vector<Front> fronts_;          ///< children before their parents
   std::vector<int> front_of_;          ///< the front that eliminates a block, by its place in the order

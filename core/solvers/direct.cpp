@@ -35,10 +35,43 @@ int worstOf(std::span<const double> residual) {
 
 constexpr const char* singular = "the matrix is singular";
 
+/// Factors of earlier systems. A system with the same pattern uses their order of elimination, which is the same that
+/// it would choose.
+class EarlierFactors {
+ public:
+  BlockFactors of(const BlockMatrix& matrix) {
+    for (BlockFactors& factors : kept_)
+      if (factors.suits(matrix)) {
+        std::swap(factors, kept_.back());
+        BlockFactors found = std::move(kept_.back());
+        kept_.pop_back();
+        return found;
+      }
+    return BlockFactors(matrix);
+  }
+  void keep(BlockFactors&& factors) {
+    if (kept_.size() == most) kept_.erase(kept_.begin());
+    kept_.push_back(std::move(factors));
+  }
+  static EarlierFactors& ofThread() {
+    static thread_local EarlierFactors factors;
+    return factors;
+  }
+
+ private:
+  static constexpr std::size_t most = 2;  // motion and heat
+  std::vector<BlockFactors> kept_;
+};
+
 /// A matrix and its factors.
 class FactorizedMatrix {
  public:
   explicit FactorizedMatrix(const Unknowns& unknowns) : matrix_(unknowns) {}
+  FactorizedMatrix(const FactorizedMatrix&) = delete;
+  FactorizedMatrix& operator=(const FactorizedMatrix&) = delete;
+  ~FactorizedMatrix() {
+    if (factors_ && matrix_.blocks() <= mostKept) EarlierFactors::ofThread().keep(std::move(*factors_));
+  }
 
   /// Assembles and factorizes the matrix, and adds the times to the outcome; returns false if it is singular.
   template <class Fill>
@@ -47,8 +80,7 @@ class FactorizedMatrix {
     matrix_.assemble(fill);
     outcome.assembly += secondsSince(start);
     const auto assembled = Clock::now();
-    if (!factors_ || blocks_ != matrix_.blocks()) factors_.emplace(matrix_);
-    blocks_ = matrix_.blocks();
+    if (!factors_ || !factors_->suits(matrix_)) factors_.emplace(EarlierFactors::ofThread().of(matrix_));
     const bool isRegular = factors_->factorize(matrix_);
     outcome.setup += secondsSince(assembled);
     return isRegular;
@@ -57,8 +89,9 @@ class FactorizedMatrix {
   void solve(std::span<double> b) const { factors_->solve(b); }
 
  private:
+  static constexpr std::size_t mostKept = 1000000;  ///< blocks of a matrix whose factors stay in memory
+
   BlockMatrix matrix_;
-  std::size_t blocks_ = 0;  ///< number of blocks for which the factors were ordered
   std::optional<BlockFactors> factors_;
 };
 
