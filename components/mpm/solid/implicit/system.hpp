@@ -126,7 +126,8 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   bool addInternalForces(std::span<const double> u, std::span<double> r);
   void addInternalForce(const PointRun& run, std::span<double> r) const;
   void findSlopes(std::size_t point, Slopes& slopes) const;
-  Spatial spatialTangent(const PointGroup& group, int k, const Matrix9& tangent) const;
+  Spatial spatialTangent(const PointGroup& group, int k, const Matrix9& tangent, bool hasHoop) const;
+  void addHoopForce(const Spatial& a, const Slopes& slopes, int i, int n, std::array<double, D * D + 1>& force) const;
   void addStiffnessOf(const Spatial& a, Local& local) const;
   /// Adds the stiffness between nodes to the matrix, without the rows and columns of prescribed displacements.
   void addStiffness(Local& local, solvers::Matrix& matrix) const;

@@ -34,45 +34,55 @@ void ImplicitSystem<D>::findSlopes(std::size_t point, Slopes& slopes) const {
 
 /// V0 a_ijkl / stretch with a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL, for the components that the nodes cause.
 template <int D>
-auto ImplicitSystem<D>::spatialTangent(const PointGroup& group, int k, const Matrix9& tangent) const -> Spatial {
-  constexpr int count = D * D + 1;
+auto ImplicitSystem<D>::spatialTangent(const PointGroup& group, int k, const Matrix9& tangent, bool hasHoop) const
+    -> Spatial {
+  constexpr int most = D * D + 1;
+  const int count = hasHoop ? most : D * D;
   const Matrix3& f = group.oldDeformation[k];
   const double factor = group.mass[k] / group.material->density / states_.stretch[group.first + k];
-  std::array<int, count> first, second;  // the axes of each component; the last is the hoop strain
+  std::array<int, most> first, second;  // the axes of each component; the last is the hoop strain
   for (int c = 0; c < D * D; ++c) {
     first[c] = sceneAxis<D>(map_.level(), c / D);
     second[c] = sceneAxis<D>(map_.level(), c % D);
   }
   first[D * D] = second[D * D] = 2;
-  Eigen::Matrix<double, 9, count> half;
-  for (int row = 0; row < 9; ++row)
-    for (int c = 0; c < count; ++c) {
-      half(row, c) = 0;
-      for (int l = 0; l < 3; ++l) half(row, c) += tangent(row, 3 * first[c] + l) * f(second[c], l);
-    }
+  Eigen::Matrix<double, 9, most> half;
+  for (int c = 0; c < count; ++c) {
+    const Eigen::RowVector3d along = factor * f.row(second[c]);
+    const int column = 3 * first[c];
+    half.col(c) = tangent.col(column) * along[0] + tangent.col(column + 1) * along[1] + tangent.col(column + 2) * along[2];
+  }
   Spatial a;
   for (int r = 0; r < count; ++r)
     for (int c = 0; c < count; ++c) {
       double sum = 0;
       for (int j = 0; j < 3; ++j) sum += f(second[r], j) * half(3 * first[r] + j, c);
-      a[r][c] = factor * sum;
+      a[r][c] = sum;
     }
   return a;
+}
+
+/// Adds what the hoop strain contributes to the stresses for a unit displacement of a node.
+template <int D>
+void ImplicitSystem<D>::addHoopForce(const Spatial& a, const Slopes& slopes, int i, int n,
+                                     std::array<double, D * D + 1>& force) const {
+  constexpr int hoop = D * D;
+  for (int j = 0; j < D; ++j) force[hoop] += slopes.along[j][i][n] * a[D * i + j][hoop];
+  for (int c = 0; c <= hoop; ++c) force[c] += slopes.hoop[i][n] * a[hoop][c];
 }
 
 /// Adds B^T a B, where the columns of B are the slopes.
 template <int D>
 void ImplicitSystem<D>::addStiffnessOf(const Spatial& a, Local& local) const {
-  constexpr int count = D * D + 1, hoop = D * D;
+  constexpr int hoop = D * D;
   const Slopes& slopes = local.slopes[local.latest];
   const int padded = slopes.padded();
   for (int n = 0; n < slopes.count; ++n)
     for (int i = 0; i < D; ++i) {
-      std::array<double, count> force;
-      for (int c = 0; c < count; ++c) {
-        force[c] = slopes.hasHoop ? slopes.hoop[i][n] * a[hoop][c] : 0.0;
-        for (int j = 0; j < D; ++j) force[c] += slopes.along[j][i][n] * a[D * i + j][c];
-      }
+      std::array<double, hoop + 1> force{};
+      for (int j = 0; j < D; ++j)
+        for (int c = 0; c < hoop; ++c) force[c] += slopes.along[j][i][n] * a[D * i + j][c];
+      if (slopes.hasHoop) addHoopForce(a, slopes, i, n, force);
       for (int k = 0; k < D; ++k) {
         double* const row = local.rows[D * n + i][k].data();
         for (int m = 0; m < padded; m += lanes_)
@@ -157,7 +167,7 @@ void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& ma
     }
     isFirst = false;
     local.latest = 1 - local.latest;
-    addStiffnessOf(spatialTangent(group, k, tangent), local);
+    addStiffnessOf(spatialTangent(group, k, tangent, slopes.hasHoop), local);
     if (!shares) return;
     forces.push_back(volumeForce(group, k, tangent, slopes));
     const Rows change = volumeRow(at, slopes);
