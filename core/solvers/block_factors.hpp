@@ -57,11 +57,11 @@ class BlockFactors {
 
   int block_;
   std::vector<std::vector<int>> pattern_;  ///< the block columns of each block row
-  std::vector<int> original_, place_;  ///< block row by place in the order of elimination, and the inverse
-  std::vector<Front> fronts_;          ///< children before their parents
-  std::vector<int> front_of_;          ///< the front that eliminates a block, by its place in the order
-  std::vector<Entry> entries_;         ///< blocks of the matrix, front by front
-  Eigen::MatrixXd whole_;              ///< the matrix of the current front
+  std::vector<int> original_, place_;      ///< block row by place in the order of elimination, and the inverse
+  std::vector<Front> fronts_;              ///< children before their parents
+  std::vector<int> front_of_;              ///< the front that eliminates a block, by its place in the order
+  std::vector<Entry> entries_;             ///< blocks of the matrix, front by front
+  Eigen::MatrixXd whole_;                  ///< the matrix of the current front
 };
 
 }  // namespace tushar::solvers

@@ -16,9 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 double product(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -28,8 +26,8 @@ int worstOf(std::span<const double> residual) {
   const auto size = [](double value) {
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
   };
-  const auto worst = std::max_element(residual.begin(), residual.end(),
-                                      [&](double a, double b) { return size(a) < size(b); });
+  const auto worst =
+      std::max_element(residual.begin(), residual.end(), [&](double a, double b) { return size(a) < size(b); });
   return static_cast<int>(worst - residual.begin());
 }
 
@@ -98,10 +96,15 @@ class FactorizedMatrix {
 /// Newton's method with factorized tangents.
 class DirectNewton {
  public:
-  DirectNewton(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
-               std::span<double> u)
-      : problem_(problem), settings_(settings), u_(u), r_(u.size()), there_(u.size()), residual_(u.size()),
-        matrix_(unknowns), changes_(settings) {}
+  DirectNewton(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings, std::span<double> u)
+      : problem_(problem),
+        settings_(settings),
+        u_(u),
+        r_(u.size()),
+        there_(u.size()),
+        residual_(u.size()),
+        matrix_(unknowns),
+        changes_(settings) {}
 
   Outcome solve() {
     const auto start = Clock::now();

@@ -99,8 +99,9 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
   return negligible;
 }
 
-/// Converged if the changes are small, or if only round-off is left of r after an iteration. Round-off is not tested before the first iteration, because a load may be
-/// as small as the round-off of a large stiffness, but must still act.
+/// Converged if the changes are small, or if only round-off is left of r after an iteration. Round-off is not tested
+/// before the first iteration, because a load may be as small as the round-off of a large stiffness, but must still
+/// act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);

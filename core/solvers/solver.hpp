@@ -20,7 +20,7 @@ struct Unknowns {
   /// The positions of the owned blocks, `block` numbers each [m], from which multigrid derives the rigid-body modes of
   /// a solid. If empty, there are no such modes.
   std::vector<double> coordinates;
-  int axes = 3;                     ///< number of axes along which the unknowns are spread
+  int axes = 3;  ///< number of axes along which the unknowns are spread
   /// Whether adding a constant to a solution gives another solution; then the one with mean 0 is chosen.
   bool constantIsFree = false;
 };
@@ -112,8 +112,7 @@ class Solver {
 Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
               std::span<double> x);
 /// Solves a nonlinear system as Solver::solve does; loads PETSc only if that is needed.
-Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
-              std::span<double> u);
+Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings, std::span<double> u);
 
 /// Replaces the values of own blocks and ghosts by their sums over all ranks.
 void addUp(const Unknowns& unknowns, std::span<double> values);

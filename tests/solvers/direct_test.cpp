@@ -11,8 +11,8 @@ namespace tushar::solvers {
 
 namespace {
 
-/// The equations of `width` x `height` nodes, each of which acts on its neighbours: unsymmetric blocks of random numbers,
-/// with an offset of the diagonal that keeps the matrix regular.
+/// The equations of `width` x `height` nodes, each of which acts on its neighbours: unsymmetric blocks of random
+/// numbers, with an offset of the diagonal that keeps the matrix regular.
 class RandomGrid {
  public:
   RandomGrid(int width, int height, int block) : width_(width), height_(height) {

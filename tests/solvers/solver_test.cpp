@@ -217,8 +217,7 @@ class DirectNewton : public testing::TestWithParam<bool> {
  protected:
   static Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
                        std::span<double> u) {
-    return GetParam() ? solver().solve(unknowns, problem, settings, u)
-                      : solvers::solve(unknowns, problem, settings, u);
+    return GetParam() ? solver().solve(unknowns, problem, settings, u) : solvers::solve(unknowns, problem, settings, u);
   }
   template <class Problem>
   static void expectRoot(double root, double start) {

@@ -76,10 +76,10 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   using Rows = std::array<std::array<double, mostNodes_>, D>;
   /// The displacement gradient at a point for unit displacements of the nodes that move it.
   struct Slopes {
-    int count = 0;                               ///< number of nodes
-    std::array<int, mostTouches<D>> numbers{};   ///< their numbers
-    std::array<Rows, D> along;                   ///< along[j][i][n]: component i, j; 0 from n = count on
-    Rows hoop;                                   ///< the hoop strain of axisymmetric scenes
+    int count = 0;                              ///< number of nodes
+    std::array<int, mostTouches<D>> numbers{};  ///< their numbers
+    std::array<Rows, D> along;                  ///< along[j][i][n]: component i, j; 0 from n = count on
+    Rows hoop;                                  ///< the hoop strain of axisymmetric scenes
     bool hasHoop = false;
 
     int padded() const { return (count + lanes_ - 1) / lanes_ * lanes_; }

@@ -50,7 +50,8 @@ auto ImplicitSystem<D>::spatialTangent(const PointGroup& group, int k, const Mat
   for (int c = 0; c < count; ++c) {
     const Eigen::RowVector3d along = factor * f.row(second[c]);
     const int column = 3 * first[c];
-    half.col(c) = tangent.col(column) * along[0] + tangent.col(column + 1) * along[1] + tangent.col(column + 2) * along[2];
+    half.col(c) =
+        tangent.col(column) * along[0] + tangent.col(column + 1) * along[1] + tangent.col(column + 2) * along[2];
   }
   Spatial a;
   for (int r = 0; r < count; ++r)
@@ -120,8 +121,8 @@ auto ImplicitSystem<D>::volumeRow(std::size_t point, const Slopes& slopes) const
 /// The nodal forces of a point for a unit change of ln det(stretch F) at its own F [N]: V0 Bᵀ q F_oldᵀ with q = (dP/dF
 /// F / stretch - 2 P) / 3.
 template <int D>
-auto ImplicitSystem<D>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent,
-                                    const Slopes& slopes) const -> Rows {
+auto ImplicitSystem<D>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent, const Slopes& slopes) const
+    -> Rows {
   const std::size_t at = group.first + k;
   const Matrix3& f = states_.deformation[at];
   const Matrix3 nominal = f.determinant() * states_.stress[at] * f.inverse().transpose();
@@ -174,8 +175,7 @@ void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& ma
     for (int n = 0; n < slopes.count; ++n)
       for (int i = 0; i < D; ++i)
         for (int j = 0; j < D; ++j)
-          for (int m = 0; m < slopes.count; ++m)
-            local.rows[D * n + i][j][m] -= forces.back()[i][n] * change[j][m];
+          for (int m = 0; m < slopes.count; ++m) local.rows[D * n + i][j][m] -= forces.back()[i][n] * change[j][m];
   });
   if (!isFirst) addStiffness(local, matrix);
   if (shares) addSharedStiffness(run, forces, matrix);
