@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/LU>
+#include <Eigen/KLUSupport>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,13 +10,13 @@
 
 namespace tushar::solvers {
 
-/// LU factors of a sparse matrix by the multifrontal method: Duff & Reid, ACM Trans. Math. Software 9 (1983) 302. Rows
-/// are exchanged only within the dense block that is eliminated together; the pattern is treated as symmetric. All sums
-/// have an order that depends only on the pattern.
+/// LU factors of a sparse matrix, by KLU (Davis & Palamadai Natarajan, ACM Trans. Math. Software 37 (2010) 36), which
+/// suits systems in two dimensions. The order of elimination is that of minimum degree (Amestoy, Davis & Duff, SIAM J.
+/// Matrix Anal. Appl. 17 (1996) 886); rows are exchanged where a diagonal entry is small. So the factors depend only on
+/// the matrix, not on earlier ones.
 class BlockFactors {
  public:
-  /// Chooses the order of elimination for the pattern of `matrix`: minimum degree (Amestoy, Davis & Duff, SIAM J.
-  /// Matrix Anal. Appl. 17 (1996) 886).
+  /// Chooses the order of elimination for the pattern of `matrix`.
   explicit BlockFactors(const BlockMatrix& matrix);
 
   /// Whether a matrix has the pattern for which the order was chosen.
@@ -26,42 +27,13 @@ class BlockFactors {
   void solve(std::span<double> b) const;
 
  private:
-  /// Unknowns that are eliminated together, and those on which they act.
-  struct Front {
-    std::vector<int> blocks;      ///< places in the order of elimination: of its own blocks, then of those below
-    int eliminated = 0;           ///< number of blocks that are eliminated
-    std::vector<int> children;    ///< fronts whose remaining matrices it receives
-    std::vector<int> inParent;    ///< for each of the other blocks, its place in the parent
-    std::size_t firstEntry = 0;   ///< its first entry in entries_
-    Eigen::MatrixXd left, above;  ///< L and U in the eliminated columns, and the remaining columns of U
-
-    /// The place of a block row, given by its place in the order of elimination.
-    int placeOf(int row) const;
-    Eigen::PermutationMatrix<Eigen::Dynamic> exchange;  ///< of the rows of the eliminated block
-    Eigen::MatrixXd rest;                               ///< the remaining matrix, until the parent has received it
-  };
-  /// A block of the matrix: block row, index in that row, and its place in a front.
-  struct Entry {
-    int row, k, i, j;
-  };
-
-  using Structure = std::vector<std::vector<int>>;
-
-  void setOrder(std::vector<int> original);
-  Structure structureOf(const BlockMatrix& matrix) const;
-  void makeFronts(const Structure& structure);
-  void connectFronts();
-  void placeEntries(const BlockMatrix& matrix);
-  void gather(std::size_t front, const BlockMatrix& matrix);
-  bool eliminate(Front& front);
+  using Numbers = Eigen::SparseMatrix<double>;
 
   int block_;
   std::vector<std::vector<int>> pattern_;  ///< the block columns of each block row
-  std::vector<int> original_, place_;      ///< block row by place in the order of elimination, and the inverse
-  std::vector<Front> fronts_;              ///< children before their parents
-  std::vector<int> front_of_;              ///< the front that eliminates a block, by its place in the order
-  std::vector<Entry> entries_;             ///< blocks of the matrix, front by front
-  Eigen::MatrixXd whole_;                  ///< the matrix of the current front
+  Numbers numbers_;                        ///< the matrix, number by number
+  std::vector<int> places_;                ///< the place in numbers_ of each number of the blocks, row by row
+  std::unique_ptr<Eigen::KLU<Numbers>> factors_;
 };
 
 }  // namespace tushar::solvers

@@ -181,7 +181,7 @@ class DirectNewton {
 
 /// Whether a Krylov method would not be faster than LU factors.
 bool isSmall(const Unknowns& unknowns) {
-  const int most = unknowns.axes < 3 ? 40000 : 6000;
+  const int most = unknowns.axes < 3 ? 6000 : 600;
   return unknowns.axes == 1 || unknowns.owned * unknowns.block <= most;
 }
 
