@@ -30,6 +30,7 @@ class CellSystem {
   CellSystem(const tasks::RankPatches& patches, const mpi::Communicator& ranks)
       : patches_(patches), grid_(patches.front()->level().grid()), number_(grid_) {
     unknowns_.ranks = &ranks;
+    unknowns_.axes = D;
     unknowns_.owned = number_.owned();
     unknowns_.ghosts = number_.ghosts();
     unknowns_.entries.assign(number_.owned(), Balance<D>::most);
@@ -57,7 +58,7 @@ class CellSystem {
       });
     };
     forEachCell([&](std::size_t p, const Index<D>& cell) { solution_[rowOf(p, cell)] = guess[p][cell]; });
-    const solvers::Outcome outcome = solvers::solver().solve(
+    const solvers::Outcome outcome = solvers::solve(
         unknowns_, {assemble, right, scale}, isRefined ? solvers::withoutSymmetry(settings) : settings, solution_);
     if (isRefined && unknowns_.constantIsFree) takeOutMean();
     return outcome;

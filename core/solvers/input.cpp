@@ -8,10 +8,16 @@ namespace {
 input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
   return input::Schema<LinearSettings>("Solver", "How linear systems are solved.")
       .choice("solver", &LinearSettings::solver,
-              {{"cg", "cg"}, {"gmres", "gmres"}, {"fgmres", "fgmres"}, {"bicgstab", "bcgs"}, {"direct", "preonly"}},
+              {{"automatic", "automatic"},
+               {"cg", "cg"},
+               {"gmres", "gmres"},
+               {"fgmres", "fgmres"},
+               {"bicgstab", "bcgs"},
+               {"direct", "preonly"}},
               defaults.solver,
-              "Krylov method; direct: the preconditioner, lu or cholesky, solves the system; on several levels, gmres "
-              "and lu replace cg and cholesky")
+              "Krylov method; direct: the preconditioner, lu or cholesky, solves the system; automatic: direct with lu "
+              "for a small system on one rank, and otherwise gmres for Newton's method and cg for others; on several "
+              "levels, gmres and lu replace cg and cholesky")
       .ours()
       .choice("preconditioner", &LinearSettings::preconditioner,
               {{"gamg", "gamg"},

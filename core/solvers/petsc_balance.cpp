@@ -50,8 +50,13 @@ Balance::Balance(Vec b) {
   check(VecDuplicate(b, b_.address()));
 }
 
+void Balance::scale(PetscMatrix& matrix, bool isNew) {
+  if (isNew) choose(matrix);
+  matrix.scale(s_);
+}
+
 /// Chooses s_i = (max_k |a_kk| / |a_ii|)^(1/2), and s_i = 1 where a_ii is 0.
-void Balance::scale(PetscMatrix& matrix) {
+void Balance::choose(const PetscMatrix& matrix) {
   check(MatGetDiagonal(matrix, s_));
   check(VecAbs(s_));
   PetscReal greatest = 0;
@@ -62,7 +67,6 @@ void Balance::scale(PetscMatrix& matrix) {
   check(VecGetArray(s_, &values));
   for (PetscInt k = 0; k < count; ++k) values[k] = values[k] > 0 ? std::sqrt(greatest / values[k]) : 1.0;
   check(VecRestoreArray(s_, &values));
-  matrix.scale(s_);
 }
 
 void Balance::attach(KSP krylov) {

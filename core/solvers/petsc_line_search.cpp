@@ -1,17 +1,11 @@
 #include <cmath>
 
+#include "core/solvers/newton_rules.hpp"
 #include "core/solvers/petsc_objects.hpp"
 
 namespace tushar::solvers {
 
 namespace {
-
-/// A trial point u - length step along a Newton step.
-struct Trial {
-  double length = 1;
-  double slope = 0;  ///< slope r . step at this point: the derivative of the energy along the step
-  bool isFinite = false;
-};
 
 Trial tryStep(SNESLineSearch search, double length) {
   SNES snes = nullptr;
@@ -26,15 +20,6 @@ Trial tryStep(SNESLineSearch search, double length) {
   return trial;
 }
 
-/// Halves the length until the residual is finite and the slope is smaller than at the start, because steps in a
-/// perfectly plastic solid can be far too long. (The point where the secant of the slope is 0 would be too far back.)
-Trial chooseStep(SNESLineSearch search, double slopeAtStart) {
-  Trial trial = tryStep(search, 1);
-  while (!(trial.isFinite && std::abs(trial.slope) <= 0.8 * std::abs(slopeAtStart)) && trial.length > 1e-3)
-    trial = tryStep(search, trial.length / 2);
-  return trial;
-}
-
 }  // namespace
 
 PetscErrorCode searchAlongStep(SNESLineSearch search, void* context) {
@@ -43,7 +28,7 @@ PetscErrorCode searchAlongStep(SNESLineSearch search, void* context) {
     check(SNESLineSearchGetVecs(search, &u, &r, &step, &there, &residual));
     double slope = 0;
     check(VecDot(r, step, &slope));
-    const Trial trial = chooseStep(search, slope);
+    const Trial trial = chooseStep(slope, [search](double length) { return tryStep(search, length); });
     check(SNESLineSearchSetLambda(search, trial.length));
     check(SNESLineSearchSetReason(search, trial.isFinite ? SNES_LINESEARCH_SUCCEEDED : SNES_LINESEARCH_FAILED_REDUCT));
     check(VecCopy(there, u));

@@ -72,7 +72,7 @@ Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, cons
   check(KSPSetResidualHistory(krylov, nullptr, settings.maxIterations + 1, PETSC_TRUE));
   LinearSettings used = settings;
   used.tolerance = toleranceOf(problem, settings, b);
-  configure(krylov, used);
+  configure(krylov, used, "cg");
   outcome.setup = timed([&] { check(KSPSetUp(krylov)); });
   outcome.solve = timed([&] { check(KSPSolve(krylov, b, solution)); });
   if (free) check(MatNullSpaceRemove(free, solution));

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/solvers/newton_rules.hpp"
 #include "core/solvers/petsc_objects.hpp"
 
 namespace tushar::solvers {
@@ -19,9 +20,13 @@ struct Newton {
   PetscMatrix& matrix;
   Balance& balance;
   GhostedVector &u, &r;
+  SmallChanges changes;
   OwnedVec lastU, lastResidual, change;
-  double greatestSquare = 0, firstEnergy = 0, assembly = 0, setup = 0;
-  std::exception_ptr thrown;
+  bool lags = false;  ///< whether a preconditioner may serve several tangents
+  double assembly = 0, setup = 0;
+  double lastNorm = 0;       ///< norm of the residual of the iteration before
+  PetscInt afterSetup = -1;  ///< iterations of the first linear solve with the present preconditioner; -1: not known
+  std::exception_ptr thrown{};
 };
 
 PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
@@ -36,18 +41,48 @@ PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
   });
 }
 
+/// Whether the tangent needs a new preconditioner: the first of a step does, and later ones if the last solve took
+/// half as many iterations again as the first with the present preconditioner.
+bool needsPreconditioner(Newton& newton, KSP krylov, PetscInt iteration) {
+  if (!newton.lags || iteration == 0) return true;
+  PetscInt last = 0;
+  check(KSPGetIterationNumber(krylov, &last));
+  if (newton.afterSetup < 0) newton.afterSetup = last;
+  return 2 * last > 3 * newton.afterSetup + 6;
+}
+
+/// Sets how accurately the linear system is solved. While Newton's method is far from the solution, more would be in
+/// vain: Eisenstat & Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2, with a factor that leaves the convergence
+/// quadratic.
+void setTolerance(Newton& newton, SNES snes, KSP krylov, PetscInt iteration) {
+  constexpr double loosest = 1e-4, factor = 1e-2;
+  PetscReal norm = 0;
+  check(SNESGetFunctionNorm(snes, &norm));
+  const double ratio = iteration == 0 ? 1 : norm / newton.lastNorm;
+  newton.lastNorm = norm;
+  const double wanted = std::min(loosest, factor * ratio * ratio);
+  const LinearSettings& linear = newton.settings.linear;
+  check(KSPSetTolerances(krylov, std::max(linear.tolerance, wanted), PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+}
+
 /// Evaluates the tangent, and then sets up the preconditioner immediately, so that the time for this can be measured.
 PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
   return guarded(newton.thrown, [&] {
     const auto start = Clock::now();
-    newton.matrix.assemble([&](Matrix& matrix) { newton.problem.tangent(matrix); });
-    newton.balance.scale(newton.matrix);
-    const auto assembled = Clock::now();
     KSP krylov = nullptr;
+    PetscInt iteration = 0;
     check(SNESGetKSP(snes, &krylov));
+    check(SNESGetIterationNumber(snes, &iteration));
+    const bool isNew = needsPreconditioner(newton, krylov, iteration);
+    newton.matrix.assemble([&](Matrix& matrix) { newton.problem.tangent(matrix); });
+    newton.balance.scale(newton.matrix, isNew);
+    const auto assembled = Clock::now();
     check(KSPSetOperators(krylov, newton.matrix, newton.matrix));
+    check(KSPSetReusePreconditioner(krylov, isNew ? PETSC_FALSE : PETSC_TRUE));
     check(KSPSetUp(krylov));
+    if (isNew) newton.afterSetup = -1;
+    setTolerance(newton, snes, krylov, iteration);
     newton.assembly += seconds(assembled - start);
     newton.setup += seconds(Clock::now() - assembled);
   });
@@ -64,9 +99,9 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
   return negligible;
 }
 
-/// Converged if |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration, or if only
-/// round-off is left of r after an iteration. Round-off is not tested before the first iteration, because a load may be
-/// as small as the round-off of a large stiffness, but must still act.
+/// Converged if the changes are small, or if only round-off is left of r after an iteration. Round-off is not tested
+/// before the first iteration, because a load may be as small as the round-off of a large stiffness, but must still
+/// act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
@@ -84,11 +119,7 @@ PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal,
       check(VecWAXPY(newton.change, -1, newton.lastU, u));
       check(VecNorm(newton.change, NORM_2, &size));
       check(VecDot(newton.change, newton.lastResidual, &energy));
-      const double square = size * size;
-      newton.greatestSquare = std::max(newton.greatestSquare, square);
-      if (iteration == 1) newton.firstEnergy = std::abs(energy);
-      if (square <= newton.settings.displacement * newton.greatestSquare &&
-          std::abs(energy) <= newton.settings.energy * newton.firstEnergy)
+      if (newton.changes.after(static_cast<int>(iteration), size * size, energy))
         *reason = SNES_CONVERGED_SNORM_RELATIVE;
     }
     check(VecCopy(u, newton.lastU));
@@ -103,6 +134,7 @@ void configure(SNES snes, Newton& newton, Vec r) {
   check(SNESSetConvergenceTest(snes, hasConverged, &newton, nullptr));
   check(SNESSetTolerances(snes, 0, 0, 0, settings.maxIterations, -1));
   check(SNESSetConvergenceHistory(snes, nullptr, nullptr, settings.maxIterations + 1, PETSC_TRUE));
+  if (newton.lags) check(SNESSetLagPreconditioner(snes, -1));  // evaluateTangent decides
   SNESLineSearch search = nullptr;
   check(SNESGetLineSearch(snes, &search));
   check(SNESLineSearchSetType(search, SNESLINESEARCHSHELL));
@@ -111,7 +143,7 @@ void configure(SNES snes, Newton& newton, Vec r) {
   check(SNESGetKSP(snes, &krylov));
   check(SNESSetFromOptions(snes));
   check(KSPSetResidualHistory(krylov, nullptr, settings.linear.maxIterations + 1, PETSC_TRUE));
-  configure(krylov, settings.linear);
+  configure(krylov, settings.linear, "gmres");
   newton.balance.attach(krylov);
 }
 
@@ -135,18 +167,20 @@ void note(Outcome& outcome, SNES snes, Vec r) {
   outcome.krylovResiduals = residualsOf(linear);
 }
 
-}  // namespace
+/// Whether an algebraic multigrid method preconditions, whose set-up costs as much as tens of iterations.
+bool isMultigrid(const LinearSettings& settings) {
+  return settings.preconditioner == "gamg" || settings.preconditioner == "hypre";
+}
 
-Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
-                    std::span<double> u) {
-  const PetscOptionsOfSolve options(settings.linear.petsc);
+Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings, bool lags,
+              std::span<double> u) {
   PetscMatrix matrix(unknowns);
   GhostedVector seen(unknowns), added(unknowns);
   const std::size_t owned = unknowns.block * unknowns.owned;
   std::vector<double> values(owned);
   const PetscVector solution(unknowns, u.first(owned)), r(unknowns, values);
   Balance balance(r);
-  Newton newton{problem, settings, matrix, balance, seen, added, {}, {}, {}, 0, 0, 0, 0, nullptr};
+  Newton newton{problem, settings, matrix, balance, seen, added, SmallChanges(settings), {}, {}, {}, lags};
   for (OwnedVec* work : {&newton.lastU, &newton.lastResidual, &newton.change})
     check(VecDuplicate(solution, work->address()));
   OwnedSnes snes;
@@ -164,6 +198,20 @@ Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const N
   outcome.solve = seconds(Clock::now() - start) - newton.assembly - newton.setup;
   note(outcome, snes, r);
   return outcome;
+}
+
+}  // namespace
+
+/// If a linear solve fails, the step is solved once more with a new preconditioner for each tangent.
+Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
+                    std::span<double> u) {
+  const PetscOptionsOfSolve options(settings.linear.petsc);
+  const std::vector<double> guess(u.begin(), u.end());
+  const bool lags = isMultigrid(settings.linear) && settings.linear.solver != "preonly";
+  Outcome outcome = solve(unknowns, problem, settings, lags, u);
+  if (!lags || outcome.converged || outcome.krylovResiduals.empty()) return outcome;
+  std::copy(guess.begin(), guess.end(), u.begin());
+  return solve(unknowns, problem, settings, false, u);
 }
 
 }  // namespace tushar::solvers

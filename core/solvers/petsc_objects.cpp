@@ -157,7 +157,8 @@ void GhostedVector::addUp(std::span<double> values) {
   std::copy(values_.begin(), values_.end(), values.begin());
 }
 
-void configure(KSP krylov, const LinearSettings& settings) {
+void configure(KSP krylov, LinearSettings settings, const char* automatic) {
+  if (settings.solver == "automatic") settings.solver = automatic;
   check(KSPSetType(krylov, settings.solver.c_str()));
   check(KSPSetTolerances(krylov, settings.tolerance, 0, 1e10, settings.maxIterations));
   check(KSPSetNormType(krylov, settings.solver == "preonly" ? KSP_NORM_NONE : KSP_NORM_UNPRECONDITIONED));

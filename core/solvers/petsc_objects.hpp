@@ -96,12 +96,13 @@ class Balance {
  public:
   /// Constructs the scaling for right-hand sides with the layout of `b`.
   explicit Balance(Vec b);
-  /// Chooses S and scales the matrix.
-  void scale(PetscMatrix& matrix);
+  /// Scales the matrix; with `isNew`, chooses S by this matrix.
+  void scale(PetscMatrix& matrix, bool isNew);
   /// Makes `krylov`, whose matrix has been scaled, accept the unscaled b and return the unscaled x.
   void attach(KSP krylov);
 
  private:
+  void choose(const PetscMatrix& matrix);
   static PetscErrorCode before(KSP, Vec b, Vec, void* balance);
   static PetscErrorCode after(KSP, Vec b, Vec x, void* balance);
 
@@ -135,8 +136,9 @@ class GhostedVector {
   OwnedVec vector_;
 };
 
-/// Sets method, preconditioner and tolerances, and then applies the user's options.
-void configure(KSP krylov, const LinearSettings& settings);
+/// Sets method, preconditioner and tolerances, and then applies the user's options. `automatic` is the method that
+/// replaces the solver `automatic`.
+void configure(KSP krylov, LinearSettings settings, const char* automatic);
 
 /// Runs `work` inside a callback of PETSc; an exception is stored until PETSc has returned.
 template <class Work>
@@ -150,8 +152,7 @@ PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
   }
 }
 
-/// The line search of Newton's method, based on the energy (Crisfield, Non-linear Finite Element Analysis, 9.2);
-/// `context` is a std::exception_ptr.
+/// The line search of Newton's method, chooseStep; `context` is a std::exception_ptr.
 PetscErrorCode searchAlongStep(SNESLineSearch search, void* context);
 
 /// The reason why a solve ended, in words, and PETSc's name for the reason.

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/base/missing.hpp"
+#include "core/solvers/direct.hpp"
 #include "core/solvers/report.hpp"
 
 namespace tushar::solvers {
@@ -49,6 +50,18 @@ std::string petscVersion() try { return load().version(); } catch (const std::ru
 bool isLoaded() { return wasLoaded; }
 
 std::vector<std::string> unusedOptions() { return wasLoaded ? solver().unusedOptions() : std::vector<std::string>{}; }
+
+Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
+              std::span<double> x) {
+  if (isDirect(unknowns, settings)) return solveDirectly(unknowns, problem, x);
+  return solver().solve(unknowns, problem, settings, x);
+}
+
+Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
+              std::span<double> u) {
+  if (isDirect(unknowns, settings.linear)) return solveDirectly(unknowns, problem, settings, u);
+  return solver().solve(unknowns, problem, settings, u);
+}
 
 void addUp(const Unknowns& unknowns, std::span<double> values) {
   if (!unknowns.ranks->isAlone()) solver().addUp(unknowns, values);

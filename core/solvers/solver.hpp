@@ -20,6 +20,7 @@ struct Unknowns {
   /// The positions of the owned blocks, `block` numbers each [m], from which multigrid derives the rigid-body modes of
   /// a solid. If empty, there are no such modes.
   std::vector<double> coordinates;
+  int axes = 3;  ///< number of axes along which the unknowns are spread
   /// Whether adding a constant to a solution gives another solution; then the one with mean 0 is chosen.
   bool constantIsFree = false;
 };
@@ -32,7 +33,8 @@ class Matrix {
   virtual void add(std::span<const int> rows, std::span<const int> columns, std::span<const double> values) = 0;
 };
 
-/// Settings for linear systems, with PETSc's names.
+/// Settings for linear systems, with PETSc's names. The solver `automatic` factorizes a small system on one rank, and
+/// takes a Krylov method for others: gmres in Newton's method, and otherwise cg.
 struct LinearSettings {
   std::string solver = "cg", preconditioner = "gamg";
   double tolerance = 1e-10;  ///< tolerance: largest residual, relative to the right-hand side
@@ -80,7 +82,7 @@ class NonlinearProblem {
 
 /// Convergence criteria of Newton's method, as in Uintah's implicit MPM.
 struct NewtonSettings {
-  LinearSettings linear{"gmres", "gamg", 1e-8, 1000, ""};
+  LinearSettings linear{"automatic", "gamg", 1e-8, 1000, ""};
   /// Tolerance for the square of the last change of u, relative to the square of the largest change.
   double displacement = 1e-10;
   /// Tolerance for the last change of u times the residual before it, relative to the first such product.
@@ -105,6 +107,12 @@ class Solver {
   virtual std::vector<std::string> unusedOptions() const = 0;
   virtual std::string version() const = 0;
 };
+
+/// Solves a linear system as Solver::solve does; loads PETSc only if that is needed (see direct.hpp).
+Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
+              std::span<double> x);
+/// Solves a nonlinear system as Solver::solve does; loads PETSc only if that is needed.
+Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings, std::span<double> u);
 
 /// Replaces the values of own blocks and ghosts by their sums over all ranks.
 void addUp(const Unknowns& unknowns, std::span<double> values);

@@ -30,6 +30,10 @@ class Loading(unittest.TestCase):
     def test_a_scene_with_a_solve_does(self):
         self.assertIn("libpetsc", libraries("ups/poisson/sine.ups"))
 
+    def test_a_small_solve_on_one_rank_loads_none_unless_there_are_options_for_it(self):
+        self.assertNotIn("libpetsc", libraries("ups/solid/implicit_cantilever.ups"))
+        self.assertIn("libpetsc", libraries("ups/solid/implicit_cantilever.ups", "-petsc", "-snes_rtol 1e-30"))
+
     def test_options_on_the_command_line_reach_petsc(self):
         result = run("ups/poisson/sine.ups", options=("--quiet", "-petsc", "-ksp_max_it 1"))
         self.assertEqual(result.code, 4)

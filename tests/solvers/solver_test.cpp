@@ -212,13 +212,34 @@ TEST(Solver, GivesTheOptionsOfASolveToNoOther) {
   EXPECT_EQ(iterations(""), before);
 }
 
-TEST(Newton, ConvergesQuadratically) {
+/// Newton's method with LU factors by PETSc and without it.
+class DirectNewton : public testing::TestWithParam<bool> {
+ protected:
+  static Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
+                       std::span<double> u) {
+    return GetParam() ? solver().solve(unknowns, problem, settings, u) : solvers::solve(unknowns, problem, settings, u);
+  }
+  template <class Problem>
+  static void expectRoot(double root, double start) {
+    std::vector<double> u{start};
+    Problem problem;
+
+    const Outcome outcome = solve(row(1), problem, directNewton(), u);
+
+    EXPECT_TRUE(outcome.converged) << outcome.reason;
+    EXPECT_NEAR(u[0], root, 1e-12);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Newton, DirectNewton, testing::Bool(),
+                         [](const auto& of) { return of.param ? "ByPetsc" : "WithoutPetsc"; });
+
+TEST_P(DirectNewton, ConvergesQuadratically) {
   std::vector<double> u{3, 3, 3};
   Roots problem;
   NewtonSettings settings = directNewton();
   settings.displacement = 1e-20;
 
-  const Outcome outcome = solver().solve(row(3), problem, settings, u);
+  const Outcome outcome = solve(row(3), problem, settings, u);
 
   ASSERT_TRUE(outcome.converged) << outcome.reason;
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(u[std::size_t(k)], std::sqrt(2.0 + k), 1e-14);
@@ -227,14 +248,14 @@ TEST(Newton, ConvergesQuadratically) {
     EXPECT_LE(outcome.residuals[k], outcome.residuals[k - 1] * outcome.residuals[k - 1] / 8 + 1e-14);
 }
 
-TEST(Newton, EndsWhereTheSquareOfTheLastChangeIsSmallBesideThatOfTheGreatest) {
+TEST_P(DirectNewton, EndsWhereTheSquareOfTheLastChangeIsSmallBesideThatOfTheGreatest) {
   NewtonSettings settings = directNewton();
   settings.displacement = 1e-4;
   settings.energy = 1;
   std::vector<double> u{3, 3, 3}, byHand(u);
   Roots problem;
 
-  const Outcome outcome = solver().solve(row(3), problem, settings, u);
+  const Outcome outcome = solve(row(3), problem, settings, u);
 
   double square = 1, greatest = 0;
   int iterations = 0;
@@ -250,20 +271,9 @@ TEST(Newton, EndsWhereTheSquareOfTheLastChangeIsSmallBesideThatOfTheGreatest) {
   EXPECT_EQ(outcome.newtonIterations, iterations);
 }
 
-template <class Problem>
-void expectRoot(double root, double start) {
-  std::vector<double> u{start};
-  Problem problem;
+TEST_P(DirectNewton, GoesBackWhereThereIsNoResidual) { expectRoot<Logarithm>(1, 10); }
 
-  const Outcome outcome = solver().solve(row(1), problem, directNewton(), u);
-
-  EXPECT_TRUE(outcome.converged) << outcome.reason;
-  EXPECT_NEAR(u[0], root, 1e-12);
-}
-
-TEST(Newton, GoesBackWhereThereIsNoResidual) { expectRoot<Logarithm>(1, 10); }
-
-TEST(Newton, GoesBackFromAStepThatLeadsFarOut) { expectRoot<Plateau>(0, 1); }
+TEST_P(DirectNewton, GoesBackFromAStepThatLeadsFarOut) { expectRoot<Plateau>(0, 1); }
 
 TEST(Newton, SolvesByMultigridWhereAnUnknownIsHardlyHeld) {
   Unknowns unknowns = row(Chain::links + 1);
@@ -280,10 +290,10 @@ TEST(Newton, SolvesByMultigridWhereAnUnknownIsHardlyHeld) {
   for (std::size_t k = 0; k < direct.size(); ++k) EXPECT_NEAR(byMultigrid[k] / direct[k], 1, 1e-6) << k;
 }
 
-TEST(Newton, PassesOnWhatTheProblemThrows) {
+TEST_P(DirectNewton, PassesOnWhatTheProblemThrows) {
   std::vector<double> u{3, 3, 3};
   Throwing problem;
-  EXPECT_THROW(solver().solve(row(3), problem, directNewton(), u), std::out_of_range);
+  EXPECT_THROW(solve(row(3), problem, directNewton(), u), std::out_of_range);
 }
 
 TEST(Newton, TellsOfTheLinearSolveThatFailed) {
@@ -302,13 +312,13 @@ TEST(Newton, TellsOfTheLinearSolveThatFailed) {
   EXPECT_NE(sentenceOf("it", outcome).find("; last linear solve: 3 iterations; residuals "), std::string::npos);
 }
 
-TEST(Newton, TellsThatItGaveUp) {
+TEST_P(DirectNewton, TellsThatItGaveUp) {
   std::vector<double> u{3000, 3, 3};
   Roots problem;
   NewtonSettings settings = directNewton();
   settings.maxIterations = 2;
 
-  const Outcome outcome = solver().solve(row(3), problem, settings, u);
+  const Outcome outcome = solve(row(3), problem, settings, u);
 
   EXPECT_FALSE(outcome.converged);
   EXPECT_EQ(outcome.newtonIterations, 2);

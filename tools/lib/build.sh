@@ -5,7 +5,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 packages=(
   g++ cmake ninja-build pkg-config
   libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libeigen3-dev libpugixml-dev libfmt-dev libcli11-dev
-  nlohmann-json3-dev libmuparser-dev libxxhash-dev libtbb-dev libpetsc-real-dev
+  nlohmann-json3-dev libmuparser-dev libxxhash-dev libtbb-dev libpetsc-real-dev libsuitesparse-dev
 )
 test_packages=(
   libgtest-dev libxml2-utils python3 python3-venv python3-h5py python3-matplotlib clang-format universal-ctags

@@ -42,8 +42,8 @@ class NodalHeat {
     std::vector<double> right(after_.size(), 0.0);
     const auto assemble = [&](solvers::Matrix& matrix) { this->assemble(dt, matrix, right); };
     const int owned = nodes_.owned();
-    solvers::Outcome outcome = solvers::solver().solve(unknowns, {assemble, std::span(right).first(owned)}, settings,
-                                                       std::span(after_).first(owned));
+    solvers::Outcome outcome =
+        solvers::solve(unknowns, {assemble, std::span(right).first(owned)}, settings, std::span(after_).first(owned));
     std::fill(after_.begin() + owned, after_.end(), 0.0);
     solvers::addUp(nodes_.unknowns(1), after_);
     return outcome;

@@ -15,7 +15,7 @@ struct ImplicitMethod {
   bool sharesVolume = false;
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
-  solvers::LinearSettings heat;   ///< solver for the conduction of heat
+  solvers::LinearSettings heat{"automatic", "gamg", 1e-10, 1000, ""};  ///< solver for the conduction of heat
   int iterationsToDecrease = 12;  ///< smallest number of iterations after which the next step is shorter
   int iterationsToIncrease = 4;   ///< number of iterations up to which the next step is longer
   double decreaseFactor = 0.6;

@@ -65,6 +65,7 @@ class NodeMap {
   solvers::Unknowns unknowns(int block) const {
     solvers::Unknowns unknowns;
     unknowns.ranks = ranks_;
+    unknowns.axes = D;
     unknowns.block = block;
     unknowns.owned = owned_;
     unknowns.ghosts = ghosts_;

@@ -163,7 +163,7 @@ void solveStep(const RankPatches& patches, const std::vector<Material>& material
                            sourcesOf(patches, materials, setup, particles));
   const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, particles);
   std::vector<double> u = system.guess();
-  const solvers::Outcome outcome = solvers::solver().solve(system.unknowns(), system, setup.how.newton, u);
+  const solvers::Outcome outcome = solvers::solve(system.unknowns(), system, setup.how.newton, u);
   if (!outcome.converged) throw failureOf(outcome, system);
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (std::size_t m = 0; m < materials.size(); ++m) {

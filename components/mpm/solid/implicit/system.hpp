@@ -69,11 +69,34 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     for (const Run& run : runs_)
       visit(sources_[run.source], PointRun{&sources_[run.source].group, run.from, run.count});
   }
-  // Largest number of rows or columns, touches_ * D.
-  static constexpr int most_ = static_cast<int>(mostTouches<D>) * D;
-  using Strain = Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, most_>;
-  using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_, most_>;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_, 1>;
+  /// Nodes are processed in groups of this size, which fill the lanes of a register.
+  static constexpr int lanes_ = 4;
+  static constexpr int mostNodes_ = (static_cast<int>(mostTouches<D>) + lanes_ - 1) / lanes_ * lanes_;
+  /// A number for each component i of the displacement of each node n near a point, at [i][n].
+  using Rows = std::array<std::array<double, mostNodes_>, D>;
+  /// The displacement gradient at a point for unit displacements of the nodes that move it.
+  struct Slopes {
+    int count = 0;                              ///< number of nodes
+    std::array<int, mostTouches<D>> numbers{};  ///< their numbers
+    std::array<Rows, D> along;                  ///< along[j][i][n]: component i, j; 0 from n = count on
+    Rows hoop;                                  ///< the hoop strain of axisymmetric scenes
+    bool hasHoop = false;
+
+    int padded() const { return (count + lanes_ - 1) / lanes_ * lanes_; }
+    bool hasSameNodes(const Slopes& other) const {
+      return std::equal(numbers.begin(), numbers.begin() + count, other.numbers.begin(),
+                        other.numbers.begin() + other.count);
+    }
+  };
+  /// The stiffness of the points that touch the same nodes: rows[D n + i] for component i of node n.
+  struct Local {
+    std::array<Slopes, 2> slopes;  ///< of the latest point and of the next
+    int latest = 0;
+    std::vector<Rows> rows = std::vector<Rows>(D * mostTouches<D>);
+    std::vector<double> values;  ///< the same, as the matrix takes them
+  };
+  /// a_ijkl at [D i + j][D k + l]; the last row and column belong to the hoop strain.
+  using Spatial = std::array<std::array<double, D * D + 1>, D * D + 1>;
 
   /// Sums over the particles at a node of the system, in the order in which gatherNodes packs them.
   struct Node {
@@ -93,19 +116,25 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   void shareNodes(const std::vector<double>& sums);
   void measureStiffness();
   void supportNodes();
+  Slopes slopesOf(std::size_t point) const {
+    Slopes slopes;
+    findSlopes(point, slopes);
+    return slopes;
+  }
   const NodeTouch<D>* touchesOf(std::size_t point) const { return &touch_[point * touches_]; }
   Matrix3 displacementGradient(std::size_t point, std::span<const double> u) const;
   bool addInternalForces(std::span<const double> u, std::span<double> r);
   void addInternalForce(const PointRun& run, std::span<double> r) const;
-  Strain strainOf(std::size_t point) const;
-  void addStiffnessOf(const PointGroup& group, int k, const Matrix9& tangent, Local& stiffness) const;
+  void findSlopes(std::size_t point, Slopes& slopes) const;
+  Spatial spatialTangent(const PointGroup& group, int k, const Matrix9& tangent, bool hasHoop) const;
+  void addHoopForce(const Spatial& a, const Slopes& slopes, int i, int n, std::array<double, D * D + 1>& force) const;
+  void addStiffnessOf(const Spatial& a, Local& local) const;
   /// Adds the stiffness between nodes to the matrix, without the rows and columns of prescribed displacements.
-  void addStiffness(std::span<const int> numbers, Local& stiffness, solvers::Matrix& matrix) const;
+  void addStiffness(Local& local, solvers::Matrix& matrix) const;
   void addRunStiffness(const PointRun& run, solvers::Matrix& matrix);
-  /// The indices of the nodes near a point; there are touches_ of them.
-  std::array<int, mostTouches<D>> numbersOf(std::size_t point) const;
-  Rows volumeRow(std::size_t point) const;
-  Rows volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const;
+  Rows contracted(const Slopes& slopes, const Matrix3& with) const;
+  Rows volumeRow(std::size_t point, const Slopes& slopes) const;
+  Rows volumeForce(const PointGroup& group, int k, const Matrix9& tangent, const Slopes& slopes) const;
   void addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces, solvers::Matrix& matrix) const;
   void addDiagonals(solvers::Matrix& matrix) const;
   bool isPrescribed(int node, int d) const { return prescribed_[D * node + d] != 0; }
@@ -125,6 +154,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   std::vector<Run> runs_;  ///< particles cell by cell: the order of every sum, for any patches
   std::vector<NodeTouch<D>> touch_;
   PointStates states_;
+  Local local_;
   std::vector<Node> node_;
   std::vector<char> prescribed_;
   std::vector<double> prescribed_value_;

@@ -199,15 +199,19 @@ template <int D>
 Matrix3 ImplicitSystem<D>::displacementGradient(std::size_t point, std::span<const double> u) const {
   const Level& level = map_.level();
   const NodeTouch<D>* touch = touchesOf(point);
-  Matrix3 gradient = Matrix3::Zero();
+  Eigen::Matrix<double, D, D> reduced = Eigen::Matrix<double, D, D>::Zero();
+  double hoop = 0;
   for (int k = 0; k < touches_; ++k) {
     if (touch[k].node < 0) continue;
     const Vec<D> moved = touch[k].sign.cwiseProduct(displacement(touch[k].node, u));
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) += moved[i] * touch[k].gradient[j];
-    gradient(2, 2) += touch[k].hoop * moved[0];
+    for (int j = 0; j < D; ++j)
+      for (int i = 0; i < D; ++i) reduced(i, j) += moved[i] * touch[k].gradient[j];
+    hoop += touch[k].hoop * moved[0];
   }
+  Matrix3 gradient = Matrix3::Zero();
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) = reduced(i, j);
+  gradient(2, 2) += hoop;
   return gradient;
 }
 
@@ -290,15 +294,16 @@ void ImplicitSystem<D>::addInternalForce(const PointRun& run, std::span<double> 
     const Matrix3 step = Matrix3::Identity() + states_.gradient[at];
     const double volume = group.mass[p] / group.material->density * states_.deformation[at].determinant();
     const Matrix3 stress = volume * states_.stress[at] * step.inverse().transpose();
+    Eigen::Matrix<double, D, D> reduced;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) reduced(i, j) = stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j));
     const NodeTouch<D>* touch = touchesOf(at);
     for (int k = 0; k < touches_; ++k) {
       if (touch[k].node < 0) continue;
-      Vec<D> force;
-      for (int i = 0; i < D; ++i) {
-        force[i] = i == 0 ? touch[k].hoop * stress(2, 2) : 0.0;
-        for (int j = 0; j < D; ++j)
-          force[i] += stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * touch[k].gradient[j];
-      }
+      Vec<D> force = Vec<D>::Zero();
+      force[0] = touch[k].hoop * stress(2, 2);
+      for (int j = 0; j < D; ++j)
+        for (int i = 0; i < D; ++i) force[i] += reduced(i, j) * touch[k].gradient[j];
       Eigen::Map<Vec<D>>(r.data() + D * touch[k].node) += touch[k].sign.cwiseProduct(force);
     }
   }

@@ -10,96 +10,142 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// The nine components of the displacement gradient for a unit displacement of each node near a point.
 template <int D>
-auto ImplicitSystem<D>::strainOf(std::size_t point) const -> Strain {
-  const Level& level = map_.level();
+void ImplicitSystem<D>::findSlopes(std::size_t point, Slopes& slopes) const {
+  slopes.count = 0;
+  slopes.hasHoop = false;
   const NodeTouch<D>* touch = touchesOf(point);
-  Strain strain = Strain::Zero(9, touches_ * D);
   for (int k = 0; k < touches_; ++k) {
     if (touch[k].node < 0) continue;
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        strain(3 * sceneAxis<D>(level, i) + sceneAxis<D>(level, j), D * k + i) =
-            touch[k].sign[i] * touch[k].gradient[j];
-    strain(8, D * k) += touch[k].sign[0] * touch[k].hoop;
+    const int n = slopes.count++;
+    slopes.numbers[n] = touch[k].node;
+    for (int i = 0; i < D; ++i) {
+      for (int j = 0; j < D; ++j) slopes.along[j][i][n] = touch[k].sign[i] * touch[k].gradient[j];
+      slopes.hoop[i][n] = i == 0 ? touch[k].sign[0] * touch[k].hoop : 0.0;
+    }
+    slopes.hasHoop = slopes.hasHoop || touch[k].hoop != 0;
   }
-  return strain;
+  for (int n = slopes.count; n < slopes.padded(); ++n)
+    for (int i = 0; i < D; ++i) {
+      for (int j = 0; j < D; ++j) slopes.along[j][i][n] = 0;
+      slopes.hoop[i][n] = 0;
+    }
 }
 
-/// Adds V0 Bᵀ a B / stretch, where B is strainOf and a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL. A column of B has
-/// at most D non-zero numbers, and one more for the hoop strain; only these are multiplied.
+/// V0 a_ijkl / stretch with a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL, for the components that the nodes cause.
 template <int D>
-void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Matrix9& tangent, Local& stiffness) const {
-  const std::size_t at = group.first + k;
+auto ImplicitSystem<D>::spatialTangent(const PointGroup& group, int k, const Matrix9& tangent, bool hasHoop) const
+    -> Spatial {
+  constexpr int most = D * D + 1;
+  const int count = hasHoop ? most : D * D;
   const Matrix3& f = group.oldDeformation[k];
-  Matrix9 half;
-  Eigen::Matrix<double, 9, 9, Eigen::RowMajor> whole;
-  for (int c = 0; c < 3; ++c) half.middleCols<3>(3 * c) = tangent.middleCols<3>(3 * c) * f.transpose();
-  for (int c = 0; c < 3; ++c) whole.middleRows<3>(3 * c) = f * half.middleRows<3>(3 * c);
-  whole *= group.mass[k] / group.material->density / states_.stretch[at];
-  std::array<int, D> axis;
-  for (int d = 0; d < D; ++d) axis[d] = sceneAxis<D>(map_.level(), d);
-  const NodeTouch<D>* touch = touchesOf(at);
-  /// Returns `sum` plus the sum over k of `rows(k)` times B_kc, where c is the column of component i of a node.
-  const auto times = [&](const NodeTouch<D>& node, int i, const auto& rows, auto sum) {
-    for (int j = 0; j < D; ++j) sum += rows(3 * axis[i] + axis[j]) * node.gradient[j];
-    if (i == 0 && node.hoop != 0) sum += rows(8) * node.hoop;
-    sum *= node.sign[i];
-    return sum;
-  };
-  for (int n = 0; n < touches_; ++n)
-    for (int i = 0; i < D; ++i) {
-      if (touch[n].node < 0) continue;
-      using Row = Eigen::Matrix<double, 1, 9>;
-      const Row force = times(
-          touch[n], i, [&](int row) { return whole.row(row); }, Row(Row::Zero()));
-      for (int m = 0; m < touches_; ++m)
-        for (int j = 0; j < D; ++j)
-          if (touch[m].node >= 0)
-            stiffness(D * n + i, D * m + j) += times(
-                touch[m], j, [&](int row) { return force[row]; }, 0.0);
+  const double factor = group.mass[k] / group.material->density / states_.stretch[group.first + k];
+  std::array<int, most> first, second;  // the axes of each component; the last is the hoop strain
+  for (int c = 0; c < D * D; ++c) {
+    first[c] = sceneAxis<D>(map_.level(), c / D);
+    second[c] = sceneAxis<D>(map_.level(), c % D);
+  }
+  first[D * D] = second[D * D] = 2;
+  Eigen::Matrix<double, 9, most> half;
+  for (int c = 0; c < count; ++c) {
+    const Eigen::RowVector3d along = factor * f.row(second[c]);
+    const int column = 3 * first[c];
+    half.col(c) =
+        tangent.col(column) * along[0] + tangent.col(column + 1) * along[1] + tangent.col(column + 2) * along[2];
+  }
+  Spatial a;
+  for (int r = 0; r < count; ++r)
+    for (int c = 0; c < count; ++c) {
+      double sum = 0;
+      for (int j = 0; j < 3; ++j) sum += f(second[r], j) * half(3 * first[r] + j, c);
+      a[r][c] = sum;
     }
+  return a;
+}
+
+/// Adds what the hoop strain contributes to the stresses for a unit displacement of a node.
+template <int D>
+void ImplicitSystem<D>::addHoopForce(const Spatial& a, const Slopes& slopes, int i, int n,
+                                     std::array<double, D * D + 1>& force) const {
+  constexpr int hoop = D * D;
+  for (int j = 0; j < D; ++j) force[hoop] += slopes.along[j][i][n] * a[D * i + j][hoop];
+  for (int c = 0; c <= hoop; ++c) force[c] += slopes.hoop[i][n] * a[hoop][c];
+}
+
+/// Adds B^T a B, where the columns of B are the slopes.
+template <int D>
+void ImplicitSystem<D>::addStiffnessOf(const Spatial& a, Local& local) const {
+  constexpr int hoop = D * D;
+  const Slopes& slopes = local.slopes[local.latest];
+  const int padded = slopes.padded();
+  for (int n = 0; n < slopes.count; ++n)
+    for (int i = 0; i < D; ++i) {
+      std::array<double, hoop + 1> force{};
+      for (int j = 0; j < D; ++j)
+        for (int c = 0; c < hoop; ++c) force[c] += slopes.along[j][i][n] * a[D * i + j][c];
+      if (slopes.hasHoop) addHoopForce(a, slopes, i, n, force);
+      for (int k = 0; k < D; ++k) {
+        double* const row = local.rows[D * n + i][k].data();
+        for (int m = 0; m < padded; m += lanes_)
+          for (int lane = m; lane < m + lanes_; ++lane) {
+            double sum = 0;
+            for (int l = 0; l < D; ++l) sum += force[D * k + l] * slopes.along[l][k][lane];
+            row[lane] += sum;
+          }
+        if (!slopes.hasHoop || k > 0) continue;
+        for (int m = 0; m < padded; ++m) row[m] += force[hoop] * slopes.hoop[0][m];
+      }
+    }
+}
+
+/// For each component of each node, the sum over i, j of its gradient times `with`.
+template <int D>
+auto ImplicitSystem<D>::contracted(const Slopes& slopes, const Matrix3& with) const -> Rows {
+  const Level& level = map_.level();
+  Rows rows;
+  for (int i = 0; i < D; ++i)
+    for (int n = 0; n < slopes.padded(); ++n) {
+      rows[i][n] = slopes.hoop[i][n] * with(2, 2);
+      for (int j = 0; j < D; ++j)
+        rows[i][n] += slopes.along[j][i][n] * with(sceneAxis<D>(level, i), sceneAxis<D>(level, j));
+    }
+  return rows;
 }
 
 /// The change of ln det F for a unit displacement of each node near a point [1/m].
 template <int D>
-auto ImplicitSystem<D>::volumeRow(std::size_t point) const -> Rows {
-  const Matrix3 inverse = (Matrix3::Identity() + states_.gradient[point]).inverse().transpose();
-  return strainOf(point).transpose() * Eigen::Map<const Vector9>(inverse.data());
+auto ImplicitSystem<D>::volumeRow(std::size_t point, const Slopes& slopes) const -> Rows {
+  return contracted(slopes, (Matrix3::Identity() + states_.gradient[point]).inverse().transpose());
 }
 
 /// The nodal forces of a point for a unit change of ln det(stretch F) at its own F [N]: V0 Bᵀ q F_oldᵀ with q = (dP/dF
 /// F / stretch - 2 P) / 3.
 template <int D>
-auto ImplicitSystem<D>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const -> Rows {
+auto ImplicitSystem<D>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent, const Slopes& slopes) const
+    -> Rows {
   const std::size_t at = group.first + k;
   const Matrix3& f = states_.deformation[at];
   const Matrix3 nominal = f.determinant() * states_.stress[at] * f.inverse().transpose();
   const Vector9 along = tangent * Eigen::Map<const Vector9>(f.data()) / states_.stretch[at];
   const Matrix3 q = (Matrix3(Eigen::Map<const Matrix3>(along.data())) - 2 * nominal) / 3;
-  const Matrix3 pushed = q * group.oldDeformation[k].transpose();
-  return group.mass[k] / group.material->density *
-         (strainOf(at).transpose() * Eigen::Map<const Vector9>(pushed.data()));
+  return contracted(slopes, group.mass[k] / group.material->density * (q * group.oldDeformation[k].transpose()));
 }
 
 template <int D>
-auto ImplicitSystem<D>::numbersOf(std::size_t point) const -> std::array<int, mostTouches<D>> {
-  std::array<int, mostTouches<D>> numbers;
-  for (int n = 0; n < touches_; ++n) numbers[n] = touchesOf(point)[n].node;
-  return numbers;
-}
-
-template <int D>
-void ImplicitSystem<D>::addStiffness(std::span<const int> numbers, Local& stiffness, solvers::Matrix& matrix) const {
-  for (int n = 0; n < touches_; ++n)
-    for (int d = 0; d < D; ++d) {
-      const int node = numbers[n];
-      if (node < 0 || !isPrescribed(node, d)) continue;
-      stiffness.row(D * n + d).setZero();
-      stiffness.col(D * n + d).setZero();
+void ImplicitSystem<D>::addStiffness(Local& local, solvers::Matrix& matrix) const {
+  const Slopes& slopes = local.slopes[local.latest];
+  const int count = slopes.count;
+  const std::span<const int> numbers(slopes.numbers.data(), count);
+  local.values.resize(std::size_t(D * count) * (D * count));
+  double* value = local.values.data();
+  for (int n = 0; n < count; ++n)
+    for (int i = 0; i < D; ++i) {
+      const bool isFree = !isPrescribed(numbers[n], i);
+      const Rows& row = local.rows[D * n + i];
+      for (int m = 0; m < count; ++m)
+        for (int k = 0; k < D; ++k) *value++ = isFree && !isPrescribed(numbers[m], k) ? row[k][m] : 0.0;
     }
-  matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
+  matrix.add(numbers, numbers, local.values);
 }
 
 /// Adds the stiffness of the points of a run. Consecutive points that touch the same nodes are added together, such as
@@ -109,23 +155,29 @@ void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& ma
   const PointGroup& group = *run.group;
   const bool shares = states_.sharesVolume(run);
   std::vector<Rows> forces;
-  Local stiffness(0, 0);
-  std::array<int, mostTouches<D>> numbers;
-  const std::span touched = std::span(numbers).first(touches_);
+  Local& local = local_;
+  bool isFirst = true;
   states_.forEachTangent(run, [&](int k, const Matrix9& tangent) {
     const std::size_t at = group.first + k;
-    const auto here = numbersOf(at);
-    if (stiffness.size() == 0 || !std::equal(touched.begin(), touched.end(), here.begin())) {
-      if (stiffness.size() > 0) addStiffness(touched, stiffness, matrix);
-      numbers = here;
-      stiffness.setZero(touches_ * D, touches_ * D);
+    Slopes& slopes = local.slopes[1 - local.latest];
+    findSlopes(at, slopes);
+    if (isFirst || !slopes.hasSameNodes(local.slopes[local.latest])) {
+      if (!isFirst) addStiffness(local, matrix);
+      for (int row = 0; row < D * slopes.count; ++row)
+        for (int i = 0; i < D; ++i) std::fill_n(local.rows[row][i].begin(), slopes.padded(), 0.0);
     }
-    addStiffnessOf(group, k, tangent, stiffness);
+    isFirst = false;
+    local.latest = 1 - local.latest;
+    addStiffnessOf(spatialTangent(group, k, tangent, slopes.hasHoop), local);
     if (!shares) return;
-    forces.push_back(volumeForce(group, k, tangent));
-    stiffness -= forces.back() * volumeRow(at).transpose();
+    forces.push_back(volumeForce(group, k, tangent, slopes));
+    const Rows change = volumeRow(at, slopes);
+    for (int n = 0; n < slopes.count; ++n)
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j)
+          for (int m = 0; m < slopes.count; ++m) local.rows[D * n + i][j][m] -= forces.back()[i][n] * change[j][m];
   });
-  if (stiffness.size() > 0) addStiffness(touched, stiffness, matrix);
+  if (!isFirst) addStiffness(local, matrix);
   if (shares) addSharedStiffness(run, forces, matrix);
 }
 
@@ -139,11 +191,13 @@ void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vecto
   for (int k = run.from; k < run.from + run.count; ++k) {
     const std::size_t at = group.first + k;
     const double volume = group.mass[k] * states_.deformation[at].determinant();
-    const Rows row = volumeRow(at);
+    const Slopes slopes = slopesOf(at);
+    const Rows row = volumeRow(at, slopes);
     whole += volume;
-    for (int n = 0; n < touches_; ++n)
-      if (const int node = touchesOf(at)[n].node; node >= 0)
-        common.try_emplace(node, Vec<D>::Zero()).first->second += volume * row.template segment<D>(D * n);
+    for (int n = 0; n < slopes.count; ++n) {
+      Vec<D>& sum = common.try_emplace(slopes.numbers[n], Vec<D>::Zero()).first->second;
+      for (int d = 0; d < D; ++d) sum[d] += volume * row[d][n];
+    }
   }
   std::vector<int> columns;
   std::vector<double> change;
@@ -153,16 +207,15 @@ void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vecto
   }
   std::vector<double> block;
   for (int k = run.from; k < run.from + run.count; ++k) {
-    const auto all = numbersOf(group.first + k);
-    const std::span rows = std::span(all).first(touches_);
+    const Slopes slopes = slopesOf(group.first + k);
     const Rows& force = forces[k - run.from];
     block.clear();
-    for (int i = 0; i < touches_ * D; ++i) {
-      const int node = rows[i / D];
-      const bool free = node >= 0 && !isPrescribed(node, i % D);
-      for (const double value : change) block.push_back(free ? force[i] * value : 0.0);
-    }
-    matrix.add(rows, columns, block);
+    for (int n = 0; n < slopes.count; ++n)
+      for (int i = 0; i < D; ++i) {
+        const bool isFree = !isPrescribed(slopes.numbers[n], i);
+        for (const double value : change) block.push_back(isFree ? force[i][n] * value : 0.0);
+      }
+    matrix.add({slopes.numbers.data(), static_cast<std::size_t>(slopes.count)}, columns, block);
   }
 }
 
