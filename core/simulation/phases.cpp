@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/input/values.hpp"
+#include "core/simulation/careful_steps.hpp"
 #include "core/simulation/level_limits.hpp"
 #include "core/simulation/refinement_marks.hpp"
 #include "core/tasks/reflux.hpp"
@@ -103,6 +104,10 @@ Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Ana
   component.scheduleInitialize(lists_.initialize);
   component.scheduleComputeStableTimeStep(lists_.stableTimeStep);
   component.scheduleTimeAdvance(lists_.timeAdvance);
+  if (const auto* careful = dynamic_cast<const CarefulSteps*>(&component)) {
+    careful->scheduleCarefulTimeAdvance(lists_.carefulAdvance);
+    about_careful_steps_ = careful->aboutCarefulSteps();
+  }
   component.scheduleDiagnostics(lists_.diagnostics);
   component.scheduleErrorEstimate(lists_.errorEstimate);
   tasks::TaskList refine;
@@ -120,6 +125,7 @@ void Phases::validateAll() const {
   tasks::validate(lists.initialize.tasks(), {});
   tasks::validate(lists.stableTimeStep.tasks(), state);
   tasks::validate(lists.timeAdvance.tasks(), withDelT);
+  tasks::validate(lists.carefulAdvance.tasks(), withDelT);
   tasks::validate(lists.diagnostics.tasks(), state);
   tasks::validate(estimating(lists.diagnostics, {}, lists.errorEstimate).tasks(), state);
   tasks::validate(lists.refine.tasks(), state);
@@ -276,6 +282,11 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
 
 namespace {
 
+/// Adds to `atEnd`, which is read after a step, what the step after it needs if it is taken by another list.
+void addNeeded(const tasks::TaskList& other, Names& atEnd) {
+  if (!other.tasks().empty()) atEnd = united(std::move(atEnd), prune(other.tasks(), atEnd, true).needed);
+}
+
 /// Records that regridding interpolates cell variables, including those of materials, from surrounding cells.
 void widenForRegridding(const std::vector<std::string>& lasting, int materials, data::VariableTable& table) {
   for (const std::string& name : lasting)
@@ -359,9 +370,11 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned mend = prune(mends.tasks(), stepped, false);
   Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend});
   Names always = requiredByAll({&stable, &begin, &refine, &mend});
+  Names atEnd = united(united(read, wants.ofState), tasks::registersOf(lists.timeAdvance));
+  addNeeded(lists.carefulAdvance, always);
+  addNeeded(lists.carefulAdvance, atEnd);
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
-  read.merge(tasks::registersOf(lists.timeAdvance));
-  Pruned advance = prune(lists.timeAdvance.tasks(), united(read, wants.ofState), true);
+  Pruned advance = prune(lists.timeAdvance.tasks(), atEnd, true);
   if (smallerSteps) refuseSmallerSteps({&stable, &advance}, *smallerSteps);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
   checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend}, grid, regrid.where);
@@ -370,7 +383,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   lasting_ = namesOfState(advance.needed, decided, stepped);
   initialize = tasks::TaskGraph("initialize", std::move(init), grid, table);
   stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), grid, table);
+  Pruned careful = prune(lists.carefulAdvance.tasks(), advance.needed, true);
   timeAdvance = tasks::TaskGraph("timeAdvance", std::move(advance), grid, table);
+  if (!careful.kept.empty())
+    carefulAdvance = tasks::TaskGraph("timeAdvance after a loss", std::move(careful), grid, table);
   everyStep = tasks::TaskGraph("diagnostics of every step", std::move(step), grid, table);
   everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), grid, table);
   startTotals = tasks::TaskGraph("totals of the start", std::move(begin), grid, table);
