@@ -34,8 +34,8 @@ double extentFromCentre(const Eigen::Matrix<double, D, D>& halfEdges) {
 }
 
 /// Shrinks a parallelepiped, given in cells, that extends farther than one cell from its centre, until it extends one
-/// cell. Each of its diagonals is shortened by itself: a domain that is stretched and sheared until its edges are nearly
-/// parallel becomes shorter but not thinner, so that gradients from its corners remain accurate.
+/// cell. Each of its diagonals is shortened by itself: a domain that is stretched and sheared until its edges are
+/// nearly parallel becomes shorter but not thinner, so that gradients from its corners remain accurate.
 template <int D>
 void shrinkToCell(Eigen::Matrix<double, D, D>& halfEdges) {
   shortenDiagonals<D>(halfEdges, 1.0, [](const Vec<D>& diagonal) { return diagonal.cwiseAbs().maxCoeff(); });

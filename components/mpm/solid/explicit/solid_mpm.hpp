@@ -19,8 +19,8 @@ class SolidMpm : public SolidsOf<D>, public simulation::CarefulSteps {
       : Base(std::move(problem), bodies.shaped.shape), bodies_(&bodies) {}
 
   void scheduleTimeAdvance(TaskList& tasks) const override;
-  /// Adds a step with `stress_update` musl in place of usl. Where a node has little mass, the velocity v* that changes F
-  /// and the stress with usl may be far larger than that of any particle; with musl it is a mean of their velocities.
+  /// Adds a step with `stress_update` musl in place of usl. Where a node has little mass, the velocity v* that changes
+  /// F and the stress with usl may be far larger than that of any particle; with musl it is a mean of their velocities.
   void scheduleCarefulTimeAdvance(TaskList& tasks) const override;
   std::string aboutCarefulSteps() const override;
 
