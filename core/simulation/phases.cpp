@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "core/input/values.hpp"
+#include "core/simulation/careful_steps.hpp"
 #include "core/simulation/level_limits.hpp"
 #include "core/simulation/refinement_marks.hpp"
 #include "core/tasks/reflux.hpp"
@@ -103,6 +103,10 @@ Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Ana
   component.scheduleInitialize(lists_.initialize);
   component.scheduleComputeStableTimeStep(lists_.stableTimeStep);
   component.scheduleTimeAdvance(lists_.timeAdvance);
+  if (const auto* careful = dynamic_cast<const CarefulSteps*>(&component)) {
+    careful->scheduleCarefulTimeAdvance(lists_.carefulAdvance);
+    about_careful_steps_ = careful->aboutCarefulSteps();
+  }
   component.scheduleDiagnostics(lists_.diagnostics);
   component.scheduleErrorEstimate(lists_.errorEstimate);
   tasks::TaskList refine;
@@ -120,6 +124,7 @@ void Phases::validateAll() const {
   tasks::validate(lists.initialize.tasks(), {});
   tasks::validate(lists.stableTimeStep.tasks(), state);
   tasks::validate(lists.timeAdvance.tasks(), withDelT);
+  tasks::validate(lists.carefulAdvance.tasks(), withDelT);
   tasks::validate(lists.diagnostics.tasks(), state);
   tasks::validate(estimating(lists.diagnostics, {}, lists.errorEstimate).tasks(), state);
   tasks::validate(lists.refine.tasks(), state);
@@ -128,70 +133,6 @@ void Phases::validateAll() const {
 void Phases::noteMaterials() {
   for (const tasks::Task& task : lists_.initialize.tasks())
     if (task.materials.size() > materials_.size()) materials_ = task.materials;
-}
-
-namespace {
-
-/// The numbers in a text such as `0`, `0,2` or `1-3`; none if the text has another form.
-std::vector<int> numbersIn(const std::string& text) {
-  std::vector<int> numbers;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
-    const auto dash = part.find('-');
-    const auto first = input::parse<int>(part.substr(0, dash));
-    const auto last = dash == std::string::npos ? first : input::parse<int>(part.substr(dash + 1));
-    if (!first.value || !last.value || *first.value < 0 || *last.value < *first.value) return {};
-    for (int number = *first.value; number <= *last.value; ++number) numbers.push_back(number);
-  }
-  return numbers;
-}
-
-}  // namespace
-
-bool Phases::isMaterial(const std::string& name) const {
-  return std::find(materials_.begin(), materials_.end(), name) != materials_.end();
-}
-
-bool Phases::isOfMaterials(const std::string& label) const {
-  for (const auto* list : {&lists_.initialize, &lists_.timeAdvance, &lists_.diagnostics})
-    for (const tasks::Task& task : list->tasks())
-      for (const tasks::Access& access : task.accesses)
-        if (access.writes() && access.label->name == label) return task.perMaterial(access);
-  return false;
-}
-
-std::vector<SaveRequest> Phases::named(const std::vector<SaveRequest>& saves) const {
-  const int count = static_cast<int>(materials_.size());
-  std::vector<SaveRequest> all;
-  for (SaveRequest save : saves) {
-    const std::vector<int> numbers = isMaterial(save.material) ? std::vector<int>{} : numbersIn(save.material);
-    const bool isOfAll = std::find(numbers.begin(), numbers.end(), count) != numbers.end();
-    if (isOfAll || (save.material == "all" && !isMaterial("all"))) save.material.clear();
-    if (numbers.empty() || isOfAll) {
-      all.push_back(save);
-      continue;
-    }
-    for (const int number : numbers) {
-      if (number > count) continue;
-      save.material = materials_[number];
-      all.push_back(save);
-    }
-  }
-  return all;
-}
-
-std::vector<std::string> Phases::remarksOn(const SaveRequest& save) const {
-  const int count = static_cast<int>(materials_.size());
-  std::vector<std::string> remarks;
-  if (isMaterial(save.material)) return remarks;
-  for (const int number : numbersIn(save.material))
-    if (number == count)
-      remarks.push_back(
-          fmt::format("in Uintah, material {} means all materials together; here, '{}' is saved for each of them",
-                      number, save.label));
-    else if (number > count)
-      remarks.push_back(fmt::format("does nothing for {}: materials are numbered from 0 to {}", number, count - 1));
-  return remarks;
 }
 
 std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& saves, const std::string& path) const {
@@ -276,6 +217,25 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
 
 namespace {
 
+/// Adds to each set of names that are read after a step what the step after it needs if it is taken by another list.
+void addNeeded(const tasks::TaskList& other, std::initializer_list<Names*> readAfter) {
+  if (other.tasks().empty()) return;
+  for (Names* names : readAfter) names->merge(prune(other.tasks(), *names, true).needed);
+}
+
+/// Compiles the steps after a loss, which compute what is `needed`; empty if there are none.
+tasks::TaskGraph carefulGraph(const tasks::TaskList& list, const Names& needed, const grid::Grid& grid,
+                              data::VariableTable& table) {
+  if (list.tasks().empty()) return {};
+  return {"carefulTimeAdvance", prune(list.tasks(), needed, true), grid, table};
+}
+
+/// Numbers the variables that the time loop itself reads.
+void numberSteps(bool bySmallerSteps, data::VariableTable& table) {
+  table.number(data::delT, -1);
+  if (bySmallerSteps) table.number(tasks::partOfStep, -1);
+}
+
 /// Records that regridding interpolates cell variables, including those of materials, from surrounding cells.
 void widenForRegridding(const std::vector<std::string>& lasting, int materials, data::VariableTable& table) {
   for (const std::string& name : lasting)
@@ -334,9 +294,7 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid,
                      const std::optional<Location>& smallerSteps) {
-  throwIfAny(problemsOf(saves));
-  throwIfAny(problemsOf(analyses));
-  const std::vector<SaveRequest> samples = samplesOf(analyses);
+  for (auto problems : {problemsOf(saves), problemsOf(analyses)}) throwIfAny(std::move(problems));
   sortSaves(named(saves));
   if (grid.levels() > 1) refuseSavedNodes(analyses);
   prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value());
@@ -344,7 +302,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
   totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));
   const Names totals = namesOf(totals_);
-  const Wants wants = wantsOf(samples, stepped);
+  const Wants wants = wantsOf(samplesOf(analyses), stepped);
 
   const Names decided = decidedBefore(lists.stableTimeStep.tasks());
   Names wanted = requiredOfState(lists.timeAdvance.tasks());
@@ -359,9 +317,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned mend = prune(mends.tasks(), stepped, false);
   Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend});
   Names always = requiredByAll({&stable, &begin, &refine, &mend});
+  Names atEnd = united(united(read, wants.ofState), tasks::registersOf(lists.timeAdvance));
+  addNeeded(lists.carefulAdvance, {&always, &atEnd});
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
-  read.merge(tasks::registersOf(lists.timeAdvance));
-  Pruned advance = prune(lists.timeAdvance.tasks(), united(read, wants.ofState), true);
+  Pruned advance = prune(lists.timeAdvance.tasks(), atEnd, true);
   if (smallerSteps) refuseSmallerSteps({&stable, &advance}, *smallerSteps);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
   checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend}, grid, regrid.where);
@@ -370,7 +329,9 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   lasting_ = namesOfState(advance.needed, decided, stepped);
   initialize = tasks::TaskGraph("initialize", std::move(init), grid, table);
   stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), grid, table);
+  const Names needed = advance.needed;
   timeAdvance = tasks::TaskGraph("timeAdvance", std::move(advance), grid, table);
+  carefulAdvance = carefulGraph(lists.carefulAdvance, needed, grid, table);
   everyStep = tasks::TaskGraph("diagnostics of every step", std::move(step), grid, table);
   everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), grid, table);
   startTotals = tasks::TaskGraph("totals of the start", std::move(begin), grid, table);
@@ -379,8 +340,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   refined = tasks::TaskGraph("new finer cells", std::move(mend), grid, table);
   refluxing = tasks::TaskGraph("after the steps of the next finer level", prune(lists.reflux.tasks(), stepped, false),
                                grid, table);
-  table.number(data::delT, -1);
-  if (smallerSteps) table.number(tasks::partOfStep, -1);
+  numberSteps(smallerSteps.has_value(), table);
   if (regrid.adaptive) widenForRegridding(lasting_, static_cast<int>(materials_.size()), table);
 }
 

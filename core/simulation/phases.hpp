@@ -40,9 +40,10 @@ class Phases {
                const std::optional<Location>& smallerSteps = {});
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
-  tasks::TaskGraph refinement;  ///< marks cells where criteria require finer ones
-  tasks::TaskGraph refined;     ///< corrects the values of newly refined cells
-  tasks::TaskGraph refluxing;   ///< refluxing on a level, after the smaller steps of the next finer level
+  tasks::TaskGraph carefulAdvance;  ///< steps after a particle has been removed (CarefulSteps); empty: timeAdvance
+  tasks::TaskGraph refinement;      ///< marks cells where criteria require finer ones
+  tasks::TaskGraph refined;         ///< corrects the values of newly refined cells
+  tasks::TaskGraph refluxing;       ///< refluxing on a level, after the smaller steps of the next finer level
 
   /// Sorted names of the variables of the previous step that a step and the totals need: the state of a run,
   /// independent of what else is saved and measured.
@@ -59,6 +60,8 @@ class Phases {
   const std::vector<std::string>& materials() const { return materials_; }
   /// Totals whose drift the report can show.
   const std::vector<ConservedTotal>& totals() const { return totals_; }
+  /// What the steps of carefulAdvance do differently.
+  const std::string& aboutCarefulSteps() const { return about_careful_steps_; }
 
   void printSchedule(std::ostream& out) const;
   void printDot(std::ostream& out) const;
@@ -68,7 +71,7 @@ class Phases {
  private:
   void printLevels(std::ostream& out) const;
   struct Lists {
-    tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics, errorEstimate, refine, reflux;
+    tasks::TaskList initialize, stableTimeStep, timeAdvance, carefulAdvance, diagnostics, errorEstimate, refine, reflux;
   };
   /// Stores the number of levels and how they step, and adds the tasks that several levels need.
   void prepareLevels(int levels, bool refluxes, bool bySmallerSteps);
@@ -93,6 +96,7 @@ class Phases {
   void sortSaves(const std::vector<SaveRequest>& saves);
 
   Lists lists_;
+  std::string about_careful_steps_;
   std::vector<std::string> state_, lasting_, saved_globals_, materials_;
   std::vector<SaveRequest> saved_fields_;
   std::vector<ConservedTotal> totals_;

@@ -29,6 +29,12 @@ std::string adviceNearCoarser(const RegridSettings& regrid) {
   return "a smaller <min_timestep_interval> in <AMR>, so that the finest cells follow in time";
 }
 
+/// The tasks of the next step: after a particle has been removed, the careful ones, if the component has them.
+tasks::TaskGraph& graphOfStep(RunState& run) {
+  const bool isCareful = run.scheduler.relocation().lost().removed > 0 && !run.phases.carefulAdvance.tasks().empty();
+  return isCareful ? run.phases.carefulAdvance : run.phases.timeAdvance;
+}
+
 /// Throws NumericalError, on all ranks, if so many particles were removed that the result no longer represents the
 /// scene.
 void refuseLosses(RunState& run) {
@@ -215,12 +221,16 @@ void Simulation::step() {
   outputs_.throwIfFailed();
   if (run_.clock.takeSaveRequest()) saveNow();
   if (!hasEnded() && checkpoints_.isDue()) checkpoints_.write();
-  if (run_.scheduler.relocation().lost().removed > removed) refuseLosses(run_);
+  if (run_.scheduler.relocation().lost().removed == removed) return;
+  refuseLosses(run_);
+  if (removed == 0 && !run_.phases.carefulAdvance.tasks().empty())
+    run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} particles were removed; from now on, {}", time.step(),
+                                   time.time(), run_.phases.aboutCarefulSteps()));
 }
 
 void Simulation::advance() {
   TimeControl& time = run_.time;
-  tasks::TaskGraph& graph = run_.phases.timeAdvance;
+  tasks::TaskGraph& graph = graphOfStep(run_);
   run_.warehouse.beginStep();
   const data::Minimum stable = stableStep();
   auto& dt = run_.warehouse.reduction<data::Minimum>(run_.delT);
@@ -246,7 +256,7 @@ data::Minimum Simulation::stableStep() {
 std::optional<data::Minimum> Simulation::tryStep(double dt) {
   TimeControl& time = run_.time;
   const tasks::StepInfo at{time.step() + 1, time.time(), dt, time.repeats(), time.mayHalve()};
-  return level_steps_ ? level_steps_->advance(at) : run_.scheduler.run(run_.phases.timeAdvance, at);
+  return level_steps_ ? level_steps_->advance(at) : run_.scheduler.run(graphOfStep(run_), at);
 }
 
 bool Simulation::hasEnded() const {

@@ -78,6 +78,14 @@ class RemovedParticles(unittest.TestCase):
             for key in ("fingerprint", "particles", "particles_removed", "particles_dropped"):
                 self.assertEqual(report[key], reports[0][key])
 
+    def test_make_the_next_steps_compute_stresses_from_velocities_of_particles(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = thrown(folder)
+            tasks = {limit: run(scene, f"Time/timestep_multiplier={limit}", self.STEPS).report["tasks"]["kept"]
+                     for limit in (6, 0.5)}
+        self.assertIn("mpm::interpolateMomentum", tasks[6], "a particle is removed: musl follows")
+        self.assertNotIn("mpm::interpolateMomentum", tasks[0.5], "none is removed: usl")
+
     def test_are_counted_across_a_restart(self):
         folder = Folder()
         self.addCleanup(folder.cleanup)

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "components/mpm/shapes/diagonals.hpp"
 #include "components/mpm/shapes/linear.hpp"
 #include "components/mpm/shapes/tensor_shape.hpp"
 
@@ -17,8 +18,8 @@ struct VectorOf {
 /// interpolation between the values of the tent function at its corners,
 ///   S_i = 1/2^D sum_c N_i(x_c),   grad S_i = 1/2^D sum_c R^(-T) sigma_c N_i(x_c),   x_c = x_p + R sigma_c,
 /// with sigma_c = (+-1, …) and the half edges R = F diag(size h) / 2; Sadeghirad, Brannon & Burghardt, Int. J. Numer.
-/// Meth. Engng 86 (2011) 1435. A domain that extends farther than one cell from its centre is shrunk until it extends
-/// one cell, as in Homel, Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31.
+/// Meth. Engng 86 (2011) 1435. A domain that extends farther than one cell from its centre is shrunk by its diagonals
+/// until it extends one cell, as in Homel, Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31.
 ///
 /// Where `Axisymmetric`, the first axis is the radius; the means are those of the plane and S_i / r is taken at the
 /// particle, as in Uintah.
@@ -60,7 +61,7 @@ struct ConvectedShape {
       for (int d = 0; d < D; ++d) first[d] = cell[d] - 1;
       const Vec<D> xi = frame.coordinates(x);
       Eigen::Matrix<double, D, D> half = extent.halfEdges;
-      half *= std::min(1.0, 1 / half.cwiseAbs().rowwise().sum().maxCoeff());
+      if (extentFromCentre<D>(half) > 1) shrinkToCell<D>(half);
       const Eigen::Matrix<double, D, D> slopes = share * frame.inverseSpacing.asDiagonal() * half.inverse().transpose();
       std::array<Corners, D> lower, upper;  // the tent functions along each axis
       for (int d = 0; d < D; ++d) {

@@ -254,6 +254,26 @@ TEST(CpdiDomain, IsShrunkWhereItReachesFartherThanACell) {
     for (int d = 0; d < 2; ++d) EXPECT_TRUE(stencil.cellOf[d][c] >= 0 && stencil.cellOf[d][c] <= 2);
 }
 
+TEST(CpdiDomain, BecomesShorterButNotThinnerIfItsEdgesAreNearlyParallel) {
+  Eigen::Matrix2d edges;
+  edges << 4, 4, 0.1, -0.1;  // diagonals (8, 0) and (0, 0.2)
+  shrinkToCell<2>(edges);
+  EXPECT_LT((edges - (Eigen::Matrix2d() << 0.5, 0.5, 0.1, -0.1).finished()).norm(), 4 * roundOff);
+
+  Eigen::Matrix2d box = Vec<2>(4, 0.1).asDiagonal();  // all diagonals of a box are as long
+  shrinkToCell<2>(box);
+  EXPECT_LT((box - Eigen::Matrix2d(Vec<2>(1, 0.025).asDiagonal())).norm(), 4 * roundOff);
+}
+
+TEST(CpdiDomain, ReachesNoFartherThanACellInThreeDimensions) {
+  Eigen::Matrix3d edges;
+  edges << 2, 1.5, 0.3, 0.1, -0.2, 1.2, 0.4, 0.1, -0.6;
+  const Eigen::Matrix3d before = edges;
+  shrinkToCell<3>(edges);
+  EXPECT_LE(extentFromCentre<3>(edges), 1 + 4 * roundOff);
+  EXPECT_GT(edges.determinant() / before.determinant(), 0) << "it is not turned inside out";
+}
+
 TEST(CpdiDomain, IsThatOfGimpForAnUndeformedParticleInOneDimension) {
   const Level level = grid<1>();
   Extent<1> extent;

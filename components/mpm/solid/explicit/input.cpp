@@ -92,7 +92,8 @@ void addUpdates(Schema<MpmSection>& mpm) {
              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
              StressUpdate::last,
              "the velocity from which stresses are computed: that of the grid at the end of the step (usl), the new "
-             "velocity of the particles, interpolated to the grid (musl), or that of the grid at the start (usf)")
+             "velocity of the particles, interpolated to the grid (musl), or that of the grid at the start (usf); with "
+             "usl, the steps after the first one that loses particles are those of musl")
       .ours()
       .value("XPIC2", &MpmSection::xpic, false, "1", "whether particles are updated by extended PIC of order 2")
       .value(

@@ -10,8 +10,26 @@ namespace tushar::mpm::solid {
 
 template <int D>
 void SolidMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
+  scheduleStep(tasks, problem_.method.stressUpdate);
+}
+
+template <int D>
+void SolidMpm<D>::scheduleCarefulTimeAdvance(TaskList& tasks) const {
+  const Method& method = problem_.method;
+  const bool isBound = method.affine || method.projectsGradient || problem_.motion || problem_.surroundings;
+  if (method.stressUpdate == StressUpdate::last && method.removesLost && !isBound)
+    scheduleStep(tasks, StressUpdate::modifiedLast);
+}
+
+template <int D>
+std::string SolidMpm<D>::aboutCarefulSteps() const {
+  return "velocities are interpolated to the nodes once more for the stresses (stress_update musl)";
+}
+
+template <int D>
+void SolidMpm<D>::scheduleStep(TaskList& tasks, StressUpdate stressUpdate) const {
   if (isLoaded()) scheduleApplyExternalLoads(tasks);
-  switch (problem_.method.stressUpdate) {
+  switch (stressUpdate) {
     case StressUpdate::last:
       scheduleMomentum(tasks, readsOld);
       problem_.method.sharesVolume ? scheduleUpdateInCells(tasks) : scheduleUpdateParticles(tasks);

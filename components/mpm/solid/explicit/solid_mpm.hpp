@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/explicit/explicit_tasks.hpp"
 #include "components/mpm/solid/explicit/solids_of.hpp"
+#include "core/simulation/careful_steps.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -11,13 +12,17 @@ namespace tushar::mpm::solid {
 /// solid_mpm.cpp contains the schedule and can be read as the method; the bodies of its tasks are in tasks/. Tasks that
 /// use shape functions come from the interpolator's module; all others are in solids_of.cpp.
 template <int D>
-class SolidMpm : public SolidsOf<D> {
+class SolidMpm : public SolidsOf<D>, public simulation::CarefulSteps {
  public:
   /// `bodies` must outlive this object.
   SolidMpm(Problem problem, const ExplicitTasks<D>& bodies)
       : Base(std::move(problem), bodies.shaped.shape), bodies_(&bodies) {}
 
   void scheduleTimeAdvance(TaskList& tasks) const override;
+  /// Adds a step with `stress_update` musl in place of usl. Where a node has little mass, the velocity v* that changes
+  /// F and the stress with usl may be far larger than that of any particle; with musl it is a mean of their velocities.
+  void scheduleCarefulTimeAdvance(TaskList& tasks) const override;
+  std::string aboutCarefulSteps() const override;
 
  private:
   using Base = SolidsOf<D>;
@@ -29,6 +34,7 @@ class SolidMpm : public SolidsOf<D> {
       Base::scheduleKeepVelocity, Base::scheduleNodalWork, Base::scheduleSurroundingForce,
       Base::scheduleTemperatureRate;
 
+  void scheduleStep(TaskList& tasks, StressUpdate stressUpdate) const;
   void scheduleShowOnGrid(TaskList& tasks, Reads stressed) const override;
   void scheduleMomentum(TaskList& tasks, Reads stressed) const;
   void scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stressed) const;

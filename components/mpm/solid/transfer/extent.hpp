@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "components/mpm/shapes/diagonals.hpp"
 #include "components/mpm/shapes/tensor_shape.hpp"
 #include "components/mpm/solid/labels.hpp"
 
@@ -86,24 +87,12 @@ template <int D>
     storeColumns(lanes, count, [&](int lane) { return vectors[lane].data(); });
 }
 
-/// Shortens half the diagonals of a parallelepiped with the given half edges, in cells, to at most `longest`, as in
-/// Homel, Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31, and computes its edges from them. `across` is
-/// the square of its half extent along axes that the grid does not use, which counts for the length of a diagonal.
+/// Shortens half the diagonals of a parallelepiped with the given half edges, in cells, to at most `longest`. `across`
+/// is the square of its half extent along axes that the grid does not use, which counts for the length of a diagonal.
 template <int D>
 void shortenDiagonals(Eigen::Matrix<double, D, D>& halfEdges, double across, double longest) {
-  constexpr int diagonals = 1 << (D - 1);
-  const auto sign = [](int diagonal, int edge) { return edge < D - 1 && ((diagonal >> edge) & 1) ? -1.0 : 1.0; };
-  Eigen::Matrix<double, D, D> shortened = Eigen::Matrix<double, D, D>::Zero();
-  bool isShorter = false;
-  for (int k = 0; k < diagonals; ++k) {
-    Vec<D> diagonal = Vec<D>::Zero();
-    for (int j = 0; j < D; ++j) diagonal += sign(k, j) * halfEdges.col(j);
-    const double length = std::sqrt(diagonal.squaredNorm() + across);
-    if (length > longest) diagonal *= longest / length;
-    isShorter = isShorter || length > longest;
-    for (int j = 0; j < D; ++j) shortened.col(j) += sign(k, j) / diagonals * diagonal;
-  }
-  if (isShorter) halfEdges = shortened;
+  mpm::shortenDiagonals<D>(halfEdges, longest,
+                           [&](const Vec<D>& diagonal) { return std::sqrt(diagonal.squaredNorm() + across); });
 }
 
 /// Extents of the particles of a material for shape functions: a common size or individual ones, deformed by F.

@@ -78,6 +78,19 @@ TEST(DeformParticles, LeavesWhatIsNotANumberToThoseWhoReportIt) {
   EXPECT_FALSE(one.now[0].allFinite());
 }
 
+TEST(ForgetDistortion, KeepsTheVolumeOfWhatIsShearedWithoutLimit) {
+  Matrix3 sheared = Matrix3::Identity() * 2;
+  sheared(0, 1) = 1500;
+  Matrix3 less = sheared;
+  less(0, 1) = 900;
+  const Matrix3 before = less;
+  forgetDistortion(less);
+  EXPECT_EQ(less, before) << "its determinant has all its digits";
+  sheared(0, 1) = 2100;
+  forgetDistortion(sheared);
+  EXPECT_LT((sheared - 2 * Matrix3::Identity()).norm(), 1e-14) << "to round-off";
+}
+
 TEST(DeformParticles, FollowsAPrescribedDeformationHoweverLarge) {
   Deformed one;
   one.method.limitsDeformation = false;

@@ -100,7 +100,7 @@ TEST(RemoveLost, LeavesWhatIsNotANumberToThoseWhoReportIt) {
   cell.deformation[1] = Matrix3::Identity();
   cell.waveSpeed[1] = 3;
   cell.newX[0][0] = std::nan("");
-  cell.newX[2][0] = -1e-9;
+  cell.newX[2][0] = -0.2;
   cell.remove();
   EXPECT_TRUE(std::isnan(cell.newX[0][0]));
   EXPECT_EQ(cell.newX[2][0], data::removed);
@@ -114,7 +114,7 @@ TEST(RemoveLost, RemovesWhatIsThrownThroughASymmetryPlaneButNotWhatLeavesThrough
   Cell cell;
   cell.deformation[1] = Matrix3::Identity();
   cell.waveSpeed[1] = 3;
-  cell.newX[0][0] = -1e-9;
+  cell.newX[0][0] = -0.11;
   cell.newX[2][0] = 1.5;
 
   cell.remove();
@@ -122,6 +122,17 @@ TEST(RemoveLost, RemovesWhatIsThrownThroughASymmetryPlaneButNotWhatLeavesThrough
   EXPECT_EQ(cell.newX[0][0], data::removed);
   EXPECT_EQ(cell.newX[1], cell.x[1]);
   EXPECT_EQ(cell.newX[2][0], 1.5);
+}
+
+TEST(RemoveLost, PutsBackWhatDriftsThroughASymmetryPlane) {
+  Cell cell;
+  cell.newX[0] = {-0.0625, 0.25};
+
+  EXPECT_EQ(cell.remove(), 1.0 / 7);
+
+  EXPECT_EQ(cell.newX[0], Vec<2>(0.0625, 0.25));
+  EXPECT_EQ(cell.deformation[0], Matrix3::Identity());
+  EXPECT_EQ(cell.newX[1][0], data::removed) << "it is inverted";
 }
 
 }  // namespace

@@ -34,6 +34,12 @@ bool deformBy(const Method& method, double dt, double square, const Matrix3& vel
 
 }  // namespace
 
+void forgetDistortion(Matrix3& deformation) {
+  constexpr double most = 1e9;
+  const double square = deformation.squaredNorm(), ratio = deformation.determinant();
+  if (ratio > 0 && square * std::sqrt(square) > most * ratio) deformation = std::cbrt(ratio) * Matrix3::Identity();
+}
+
 void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt, int n, Matrix3& result) {
   Rows rows(f);
   const double part = dt / n;
@@ -73,11 +79,13 @@ template <int D>
 void finishDeformation(const Material& material, const StateUpdate<D>& u, int first, int count,
                        Matrix3* velocityGradient) {
   if (!u.localized && !u.volume && !u.velocityGradient) return;
+  const bool keepsStress = u.stress && !material.model->dependsOnDeformationOnly();
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
     const Matrix3& before = u.oldDeformation[p];
     Matrix3& now = u.deformation[p];
     if (u.localized && (*u.localized)[p]) material.erosion.restrain(before, now, velocityGradient[k]);
+    if (keepsStress) forgetDistortion(now);
     if (u.volume) (*u.volume)[p] = (*u.oldVolume)[p] * (now.determinant() / before.determinant());
     if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient[k];
   }

@@ -20,6 +20,11 @@ void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt, int n,
 /// Computes F at the end of a step: (sum_k (L dt)^k / k!) F, up to the power `order`.
 void deformBySeries(const Matrix3& f, const Matrix3& velocityGradient, double dt, int order, Matrix3& result);
 
+/// Replaces an F that is distorted so much that det F is about to lose its digits (|F|^3 > 1e9 det F, with errors up to
+/// 1e-6) by the F of the same change of volume without distortion. Intended for materials whose stress does not follow
+/// from F alone: gases are sheared without limit.
+void forgetDistortion(Matrix3& deformation);
+
 /// The sums of the squared components of L [1/s^2], one particle in each lane.
 inline Lanes squaredNorms(const TensorOf<Lanes>& velocityGradient) {
   std::array<Lanes, 3> squares;
