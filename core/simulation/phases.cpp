@@ -54,6 +54,14 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   return names;
 }
 
+/// The reductions of the numbers that the report shows: those of steps, or those at the end of the run.
+Names reportedBy(const std::vector<Reported>& reported, bool ofSteps) {
+  Names names;
+  for (const Reported& one : reported)
+    if (one.isOfSteps() == ofSteps) names.emplace(one.label->name);
+  return names;
+}
+
 /// Whether a variable contains fluxes, which exist only during a step.
 bool isOfRims(const std::string& name) { return name.starts_with("rim."); }
 
@@ -99,7 +107,8 @@ Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
 
 }  // namespace
 
-Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses) {
+Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
+    : reported_(component.reported()) {
   component.scheduleInitialize(lists_.initialize);
   component.scheduleComputeStableTimeStep(lists_.stableTimeStep);
   component.scheduleTimeAdvance(lists_.timeAdvance);
@@ -328,6 +337,7 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
     (stepped.contains(sample.label) ? wants.ofState : wants.everyStep).insert(sample.label);
   for (const std::string& global : saved_globals_)
     if (!diagnosed.contains(global)) wants.ofState.insert(global);
+  wants.ofState.merge(reportedBy(reported_, true));
   return wants;
 }
 
@@ -353,7 +363,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned step = prune(lists.diagnostics.tasks(), wants.everyStep, false);
   Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
-  Pruned end = prune(lists.diagnostics.tasks(), united(totals, measuredBy(analyses)), false);
+  Pruned end = prune(lists.diagnostics.tasks(), united(united(totals, measuredBy(analyses)), reportedBy(reported_, false)), false);
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
   const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
   Pruned mend = prune(mends.tasks(), stepped, false);

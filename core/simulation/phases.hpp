@@ -59,6 +59,8 @@ class Phases {
   const std::vector<std::string>& materials() const { return materials_; }
   /// Totals whose drift the report can show.
   const std::vector<ConservedTotal>& totals() const { return totals_; }
+  /// Numbers of the whole run that the report shows.
+  const std::vector<Reported>& reported() const { return reported_; }
 
   void printSchedule(std::ostream& out) const;
   void printDot(std::ostream& out) const;
@@ -96,6 +98,7 @@ class Phases {
   std::vector<std::string> state_, lasting_, saved_globals_, materials_;
   std::vector<SaveRequest> saved_fields_;
   std::vector<ConservedTotal> totals_;
+  std::vector<Reported> reported_;
   int levels_ = 1;
   bool smaller_steps_ = false;  ///< whether finer levels take smaller steps
 };

@@ -22,7 +22,8 @@ RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_
       scheduler(warehouse, problem.threads, problem.cellsPerThread),
       time(problem.time),
       clock(startedAt),
-      progress(options.quiet || !ranks.isFirst(), stdout) {
+      progress(options.quiet || !ranks.isFirst(), stdout),
+      reportedSoFar(phases.reported().size()) {
   phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid, problem.smallerSteps);
   warehouse.grow(materials());
 }
@@ -46,6 +47,12 @@ Totals RunState::measureTotals(tasks::TaskGraph& graph) {
   Totals totals;
   for (const auto& total : phases.totals()) totals.push_back(reduction(total.label));
   return totals;
+}
+
+void RunState::addStepToReported() {
+  for (std::size_t k = 0; k < reportedSoFar.size(); ++k)
+    if (const Reported& one = phases.reported()[k]; one.isOfSteps())
+      reportedSoFar[k].addStep(one.over, reduction(one.label->name), time.delT());
 }
 
 tasks::LostParticles RunState::lostParticles() {

@@ -38,6 +38,9 @@ struct RunState {
   /// The totals of the current state, computed by the given graph.
   Totals measureTotals(tasks::TaskGraph& graph);
 
+  /// Takes account of the last step in the numbers of the report.
+  void addStepToReported();
+
   /// Number of particles that all ranks have lost since the start. Collective.
   tasks::LostParticles lostParticles();
 
@@ -59,6 +62,7 @@ struct RunState {
   RunClock clock;
   Progress progress;
   Totals totalsAtStart;  ///< totals at the start of the run, or of the run that it continues
+  std::vector<ReportedSoFar> reportedSoFar;  ///< in the order of Phases::reported()
 };
 
 }  // namespace tushar::simulation

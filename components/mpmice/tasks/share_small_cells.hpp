@@ -211,10 +211,20 @@ void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, doubl
   for (const auto& mass : held.masses) mass[cell] = 0;
 }
 
-/// Computes the state after a step by merging small cells with neighbours, and counts the merged cells.
+/// References to the totals of shareSmallCells: the number of merged cells, and the smallest free volume with gas.
+struct SmallCellTotals {
+  Sum& merged;
+  Minimum& leastFree;
+
+  static SmallCellTotals from(auto& take) {
+    return {.merged = take(computes(total::mergedCells)), .leastFree = take(computes(total::leastFreeVolume))};
+  }
+};
+
+/// Computes the state after a step by merging small cells with neighbours.
 template <int D>
 void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
-                     Sum& merged) {
+                     const SmallCellTotals& totals) {
   const Level& level = patch.level();
   forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
     const auto copy = [&](const auto& from, const auto& to) {
@@ -238,13 +248,16 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
   const SmallCells<D> small(level, settings.thinWalls, state);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     const Index<D> centre = small.targetOf(cell);
-    if (!(centre == cell)) merged.add(1);
+    if (!(centre == cell)) totals.merged.add(1);
     shareAt<D>(small, state, cell, centre, fresh.held);
     emptyIfNothingLeft<D>(cell, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
+  totals.leastFree.add(1);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    checkGas<D>(level, lawAt<D>(settings, fresh.held, fresh.free[cell], cell), cell, fresh);
+    const double free = fresh.free[cell];
+    checkGas<D>(level, lawAt<D>(settings, fresh.held, free, cell), cell, fresh);
+    if (!(free < leastFreeVolume) && fresh.held.density[cell] > 0) totals.leastFree.add(free);
   });
 }
 
