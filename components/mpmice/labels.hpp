@@ -103,7 +103,6 @@ inline constexpr CellLabel<double> heatSinceStart{"c.heatSinceStart", "J/m^3",
 template <int D>
 inline constexpr CellLabel<Vec<D>> massFlow{
     "c.massFlow", "kg/m^3", "gas that passed bodies upwards through the open lower faces, per volume of a cell"};
-inline constexpr CellLabel<double> leak{"c.leak", "kg/m^3", "gas that leaked through bodies in the cell in the step"};
 inline constexpr CellLabel<double> leakSinceStart{"c.leakSinceStart", "kg/m^3",
                                                   "gas that leaked through bodies in the cell"};
 /// Labels of a body that burns.
@@ -185,8 +184,6 @@ inline constexpr ReductionLabel<Sum> heatOfStep{"GasHeatOfStep", "J", "heat from
 inline constexpr ReductionLabel<Sum> burntMass{"BurntMass", "kg", "mass of bodies that burned since the start"};
 inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat released by burning since the start"};
 inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that leaked through bodies since the start"};
-inline constexpr ReductionLabel<Sum> leakOfStep{"GasLeakOfStep", "kg",
-                                                 "gas that leaked through bodies in the step"};
 inline constexpr ReductionLabel<Sum> mergedCells{
     "MergedCells", "1", "number of cells whose gas was merged with that of a neighbour in the step"};
 inline constexpr ReductionLabel<Minimum> leastFreeVolume{

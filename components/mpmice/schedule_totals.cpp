@@ -23,9 +23,7 @@ void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) con
   tasks.acrossMaterials("mpmice::measureLeak", measureLeak<D>, materials, all<Boxes<D>>(readsOld), with(settings_),
                         withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 1})),
                         withoutMaterial(requiresNew(c::massFlow<D>, 1)),
-                        withoutMaterial(offers(c::leak)), computes(total::leakOfStep));
-  tasks.perPatch("mpmice::addLeak", addToSum<D, double>, requiresNew(c::leak), requiresOld(c::leakSinceStart),
-                 computes(c::leakSinceStart));
+                        withoutMaterial(requiresOld(c::leakSinceStart)), withoutMaterial(computes(c::leakSinceStart)));
 }
 
 /// Adds the tasks for the energy of gas and bodies.
@@ -88,7 +86,7 @@ std::vector<simulation::Reported> GasAround<D>::reported() const {
   std::vector<simulation::Reported> all{
       {"impulse_on_bodies", "impulse of the gas on bodies", "N s", &total::forceOnBodies, time},
       {"work_on_bodies", "work of the gas on bodies", "J", &total::powerOnBodies, time},
-      {"leak", "gas that leaked through bodies", "kg", &total::leakOfStep, sum},
+      {"leak", "gas that leaked through bodies", "kg", &total::leak, end, true},
       {"merged_cells", "small cells merged, in all steps", "1", &total::mergedCells, sum},
       {"least_free_volume", "smallest open fraction of a cell", "1", &total::leastFreeVolume, least}};
   if (hasHeat()) all.insert(all.begin() + 2, {"heat_to_bodies", "heat from the gas to bodies", "J", &total::heatOfStep, sum});

@@ -133,11 +133,11 @@ std::string driftTable(const Report& report) {
 
 std::string tableOfRun(const Report& report) {
   if (report.ofRun.empty()) return "";
-  std::string text = fmt::format("\n  {:<36} {:>14}\n", "over the run", "");
+  std::string text = "\n  over the run\n";
   for (const NumberOfRun& one : report.ofRun) {
     std::string value;
     for (const double number : one.value) value += fmt::format("{}{:.6g}", value.empty() ? "" : ", ", number);
-    text += fmt::format("  {:<36} {:>14}   {}\n", one.text, value, one.unit == "1" ? "" : one.unit);
+    text += fmt::format("  {:<36} {:>14}{}\n", one.text, value, one.unit == "1" ? "" : "   " + one.unit);
   }
   return text;
 }

@@ -53,8 +53,8 @@ class Component {
   /// Adds tasks that compute diagnostics of the old state: totals, derived fields. Tasks whose results are not needed
   /// are omitted.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
-  /// Numbers of the whole run that the report shows, in this order. Their tasks are kept in every run, so only those
-  /// that cost next to nothing belong here.
+  /// Numbers of the whole run that the report shows, in this order. Their tasks are kept in every run, unless they are
+  /// `onlyIfSaved`.
   virtual std::vector<Reported> reported() const { return {}; }
 };
 

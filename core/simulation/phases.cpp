@@ -348,6 +348,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   throwIfAny(problemsOf(analyses));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
+  std::erase_if(reported_, [&](const Reported& one) {
+    const auto isIt = [&](const std::string& name) { return name == one.label->name; };
+    return one.onlyIfSaved && std::none_of(saved_globals_.begin(), saved_globals_.end(), isIt);
+  });
   if (grid.levels() > 1) refuseSavedNodes(analyses);
   prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value());
   const Lists& lists = lists_;

@@ -21,6 +21,7 @@ struct Reported {
   std::string unit;
   const data::Label* label;  ///< the reduction, which a task of this scene computes
   Over over;
+  bool onlyIfSaved = false;  ///< for costly numbers: the report shows it only if the scene saves the reduction
 
   bool isOfSteps() const { return over != Over::end; }
 };

@@ -22,10 +22,10 @@ RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_
       scheduler(warehouse, problem.threads, problem.cellsPerThread),
       time(problem.time),
       clock(startedAt),
-      progress(options.quiet || !ranks.isFirst(), stdout),
-      reportedSoFar(phases.reported().size()) {
+      progress(options.quiet || !ranks.isFirst(), stdout) {
   phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid, problem.smallerSteps);
   warehouse.grow(materials());
+  reportedSoFar.resize(phases.reported().size());
 }
 
 void RunState::setTimeOfAnalyses() {

@@ -172,34 +172,31 @@ inline double leakAlong(double in, double out, double openIn, double openOut, do
   return width > straight ? through * (1 - straight / width) : 0;
 }
 
-/// Computes the leak of a step in each cell, if something needs it, and its total on the patch.
+/// Adds the leak of a step to the leak since the start in each cell.
 template <int D>
 void measureLeak(const Patch& patch, const std::vector<mpm::solid::Material>&, const std::vector<Boxes<D>>& materials,
                  const Settings& settings, const GasInCells<D>& cells, CellView<const Vec<D>> flow,
-                 const std::optional<CellView<double>>& leak, Sum& total) {
+                 CellView<const double> before, CellView<double> leak) {
   const FreeSpace<D> space(patch.level(), settings, cells);
   const auto mayLeak = [&](const Index<D>& cell, int d) {
     return flow[cell][d] * flow[cell + Index<D>::unit(d)][d] > 0 && !space.isAtSide(cell, d, 0) &&
            !space.isAtSide(cell, d, 1);
   };
-  if (leak) leak->fill(0);
   LeakyCells<D> leaky(patch);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    leak[cell] = before[cell];
     if (!(cells.free[cell] < 1) || cells.isEmpty(cell)) return;
     for (int d = 0; d < D; ++d)
       if (mayLeak(cell, d)) return leaky.add(cell);
   });
   for (const Boxes<D>& boxes : materials) leaky.block(patch.level(), boxes);
-  const double volume = patch.level().cellVolume();
   leaky.forEachCell([&](const Index<D>& cell, const BlockedStrips<D>& strips) {
-    double sum = 0;
     for (int d = 0; d < D; ++d) {
       if (!mayLeak(cell, d)) continue;
       const OpenFaces faces = space.faces(cell, d);
-      sum += leakAlong(flow[cell][d], flow[cell + Index<D>::unit(d)][d], faces.open[0], faces.open[1], strips.open(d));
+      leak[cell] +=
+          leakAlong(flow[cell][d], flow[cell + Index<D>::unit(d)][d], faces.open[0], faces.open[1], strips.open(d));
     }
-    if (leak) (*leak)[cell] = sum;
-    if (sum > 0) total.add(volume * sum);
   });
 }
 

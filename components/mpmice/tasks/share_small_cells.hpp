@@ -39,8 +39,7 @@ class SmallCells {
       : level_(level), thin_walls_(thinWalls), state_(state) {}
 
   /// The neighbour that receives the gas of a small cell: one with enough free volume, otherwise one that has more free
-  /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself. Of two equally
-  /// suitable neighbours, it is the lower one.
+  /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
@@ -84,12 +83,19 @@ class SmallCells {
     double most = -1;
     forEachAround(cell, [&](const Index<D>& at) {
       const double score = scoreOf(cell, at);
-      if (score > most) {
-        most = score;
-        best = at;
-      }
+      const bool isLevel = score >= 0 && std::abs(score - most) <= offRoundShares;
+      if (isLevel ? comesFirst(at, best, cell) : score > most) best = at;
+      most = std::max(most, score);
     });
     return best;
+  }
+  /// Whether a neighbour of a cell is preferred to another one that is equally suitable, so that mirrored cells prefer
+  /// mirrored neighbours: the one that is apart from the cell along the first axis, otherwise along the next one. Of two
+  /// neighbours on opposite sides, it is the lower one.
+  static bool comesFirst(const Index<D>& at, const Index<D>& other, const Index<D>& cell) {
+    for (int d = 0; d < D; ++d)
+      if ((at[d] == cell[d]) != (other[d] == cell[d])) return other[d] == cell[d];
+    return false;
   }
   /// The score of a neighbour with more free volume; -1 for others. Neighbours that are not small have the highest
   /// scores.
