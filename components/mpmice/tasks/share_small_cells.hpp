@@ -208,10 +208,29 @@ inline constexpr double nothingLeft = 1e-100;
 /// The energy per cell volume below which the energy of a cell without mass counts as 0 [J/m³].
 inline constexpr double noEnergyLeft = 1e-60;
 
+/// The fraction of the content of a cell next to a hole below which a negative content of the hole is round-off.
+inline constexpr double roundOffOfHoles = 1e-18;
+
+/// Whether the mass of a hole is negative, but negligible compared with the gas next to it, like its energy.
+template <int D>
+bool isRoundOff(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, double mass,
+                double energy) {
+  if (!(mass < 0) || !(state.free[cell] < leastFreeVolume)) return false;
+  double mostMass = 0, mostEnergy = 0;
+  small.forEachAround(cell, [&](const Index<D>& at) {
+    mostMass = std::max(mostMass, state.held.density[at]);
+    mostEnergy = std::max(mostEnergy, std::abs(state.held.totalEnergy[at]));
+  });
+  return -mass <= roundOffOfHoles * mostMass && std::abs(energy) <= roundOffOfHoles * mostEnergy;
+}
+
 /// Empties a cell in which almost nothing is left. A cell without mass that has energy keeps it; checkGas refuses it.
 template <int D>
-void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, double>& held) {
-  if (!(std::abs(held.density[cell]) < nothingLeft && std::abs(held.totalEnergy[cell]) < noEnergyLeft)) return;
+void emptyIfNothingLeft(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell,
+                        const euler::MixtureViews<D, double>& held) {
+  const double mass = held.density[cell], energy = held.totalEnergy[cell];
+  const bool isEmpty = std::abs(mass) < nothingLeft && std::abs(energy) < noEnergyLeft;
+  if (!isEmpty && !isRoundOff(small, state, cell, mass, energy)) return;
   held.density[cell] = held.totalEnergy[cell] = 0;
   held.momentum[cell] = Vec<D>::Zero();
   for (const auto& mass : held.masses) mass[cell] = 0;
@@ -256,7 +275,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     const Index<D> centre = small.targetOf(cell);
     if (!(centre == cell)) totals.merged.add(1);
     shareAt<D>(small, state, cell, centre, fresh.held);
-    emptyIfNothingLeft<D>(cell, fresh.held);
+    emptyIfNothingLeft<D>(small, state, cell, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
   totals.leastFree.add(1);
