@@ -166,9 +166,9 @@ using namespace mpm::solid::g;
 
 /// Labels of totals. Those of `euler` and of the solids that have the same name add up.
 namespace total {
-inline constexpr ReductionLabel<Sum> energy{
-    "TotalEnergy", "J",
-    "internal and kinetic energy of the gas, kinetic and strain energy of bodies, and their heat if the gas heats them"};
+inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J",
+                                            "internal and kinetic energy of the gas, kinetic and strain energy of "
+                                            "bodies, and their heat if the gas heats them"};
 inline constexpr ReductionLabel<Sum> gasMass{"GasMass", "kg", "mass of the gas"};
 inline constexpr ReductionLabel<VectorSum> gasMomentum{"GasMomentum", "kg m/s", "momentum of the gas"};
 inline constexpr ReductionLabel<Sum> gasEnergy{"GasEnergy", "J", "internal and kinetic energy of the gas"};

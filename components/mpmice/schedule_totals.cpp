@@ -89,7 +89,8 @@ std::vector<simulation::Reported> GasAround<D>::reported() const {
       {"leak", "gas that leaked through bodies", "kg", &total::leak, end, true},
       {"merged_cells", "small cells merged, in all steps", "1", &total::mergedCells, sum},
       {"least_free_volume", "smallest open fraction of a cell", "1", &total::leastFreeVolume, least}};
-  if (hasHeat()) all.insert(all.begin() + 2, {"heat_to_bodies", "heat from the gas to bodies", "J", &total::heatOfStep, sum});
+  if (hasHeat())
+    all.insert(all.begin() + 2, {"heat_to_bodies", "heat from the gas to bodies", "J", &total::heatOfStep, sum});
   if (burns()) {
     all.push_back({"burnt_mass", "mass of bodies that burned", "kg", &total::burntMass, end});
     all.push_back({"reaction_heat", "heat released by burning", "J", &total::reactionHeat, end});

@@ -339,8 +339,7 @@ std::string toText(const Report& report) {
   }
   text += '\n';
   text += levelsLine(report) + limitLine(report) + errorTable(report) + driftTable(report) + tableOfRun(report) +
-          energyTable(report) +
-          timeTable(report);
+          energyTable(report) + timeTable(report);
   if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
   text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
   return text;

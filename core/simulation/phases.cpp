@@ -367,7 +367,8 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned step = prune(lists.diagnostics.tasks(), wants.everyStep, false);
   Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
-  Pruned end = prune(lists.diagnostics.tasks(), united(united(totals, measuredBy(analyses)), reportedBy(reported_, false)), false);
+  Pruned end = prune(lists.diagnostics.tasks(),
+                     united(united(totals, measuredBy(analyses)), reportedBy(reported_, false)), false);
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
   const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
   Pruned mend = prune(mends.tasks(), stepped, false);

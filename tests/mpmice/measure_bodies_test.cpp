@@ -113,9 +113,8 @@ TEST(Bodies, ThatAreShearedOrTurnedLeaveOnlySmallHoles) {
     return mpm::solid::Matrix3(axes * stretch * axes.transpose());
   };
   double greatest = 0;
-  for (const mpm::solid::Matrix3& f :
-       {turned(0.1), turned(0.5), turned(0.25 * M_PI), sheared(0.1), sheared(0.5), sheared(1), stretched(1.2),
-        stretched(1.5), stretched(2)})
+  for (const mpm::solid::Matrix3& f : {turned(0.1), turned(0.5), turned(0.25 * M_PI), sheared(0.1), sheared(0.5),
+                                       sheared(1), stretched(1.2), stretched(1.5), stretched(2)})
     for (int seed = 0; seed < 4; ++seed) greatest = std::max(greatest, greatestHoleOf(f, seed));
   EXPECT_LT(greatest, 0.4 * narrowFreeVolume);  // .071 with a body turned by 45 degrees
 }

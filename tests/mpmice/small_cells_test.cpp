@@ -25,7 +25,8 @@ struct Sharing {
     leastFree = {};
     const NewGas<D> fresh{{{after.density.cells(), after.momentum.cells(), after.energy.cells()}, {}, {}},
                           after.free.cells()};
-    for (const Patch& patch : grid.patches()) shareSmallCells<D>(patch, Settings{}, unshared(), fresh, {merged, leastFree});
+    for (const Patch& patch : grid.patches())
+      shareSmallCells<D>(patch, Settings{}, unshared(), fresh, {merged, leastFree});
   }
   /// Sets the free volume of a cell and fills it with gas of a density, at rest, at pressure 1.
   void fill(const Index<D>& cell, double free, double density = 1) {

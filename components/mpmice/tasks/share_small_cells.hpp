@@ -90,8 +90,8 @@ class SmallCells {
     return best;
   }
   /// Whether a neighbour of a cell is preferred to another one that is equally suitable, so that mirrored cells prefer
-  /// mirrored neighbours: the one that is apart from the cell along the first axis, otherwise along the next one. Of two
-  /// neighbours on opposite sides, it is the lower one.
+  /// mirrored neighbours: the one that is apart from the cell along the first axis, otherwise along the next one. Of
+  /// two neighbours on opposite sides, it is the lower one.
   static bool comesFirst(const Index<D>& at, const Index<D>& other, const Index<D>& cell) {
     for (int d = 0; d < D; ++d)
       if ((at[d] == cell[d]) != (other[d] == cell[d])) return other[d] == cell[d];
