@@ -233,7 +233,7 @@ void emptyIfNothingLeft(const SmallCells<D>& small, const Unshared<D>& state, co
   if (!isEmpty && !isRoundOff(small, state, cell, mass, energy)) return;
   held.density[cell] = held.totalEnergy[cell] = 0;
   held.momentum[cell] = Vec<D>::Zero();
-  for (const auto& mass : held.masses) mass[cell] = 0;
+  for (const auto& ofGas : held.masses) ofGas[cell] = 0;
 }
 
 /// References to the totals of shareSmallCells: the number of merged cells, and the smallest free volume with gas.
