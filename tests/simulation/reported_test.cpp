@@ -83,7 +83,7 @@ TEST(Reported, OfStepsIsAbsentBeforeTheFirst) {
 
 TEST(Reported, ThatIsCostlyIsShownIfItIsSaved) {
   Problem problem = watched();
-  problem.archive.saves.push_back({.label = "LostHeat"});
+  problem.archive.saves.push_back({"LostHeat", "", {}, {}});
   test::CoolingRun run(std::move(problem));
   run.initialize();
   EXPECT_EQ(numbersOf(reportAfter(run, 1)).back(), (Numbers::value_type{"costly", {4}}));
