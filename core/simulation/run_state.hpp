@@ -61,7 +61,7 @@ struct RunState {
   TimeControl time;
   RunClock clock;
   Progress progress;
-  Totals totalsAtStart;  ///< totals at the start of the run, or of the run that it continues
+  Totals totalsAtStart;                      ///< totals at the start of the run, or of the run that it continues
   std::vector<ReportedSoFar> reportedSoFar;  ///< in the order of Phases::reported()
 };
 
