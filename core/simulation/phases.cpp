@@ -54,14 +54,6 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   return names;
 }
 
-/// The reductions of the numbers that the report shows: those of steps, or those at the end of the run.
-Names reportedBy(const std::vector<Reported>& reported, bool ofSteps) {
-  Names names;
-  for (const Reported& one : reported)
-    if (one.isOfSteps() == ofSteps) names.emplace(one.label->name);
-  return names;
-}
-
 /// Whether a variable contains fluxes, which exist only during a step.
 bool isOfRims(const std::string& name) { return name.starts_with("rim."); }
 
@@ -254,6 +246,7 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
       saved_fields_.push_back(save);
     }
   }
+  reported_ = shownOf(std::move(reported_), saved_globals_);
 }
 
 tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
@@ -337,7 +330,7 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
     (stepped.contains(sample.label) ? wants.ofState : wants.everyStep).insert(sample.label);
   for (const std::string& global : saved_globals_)
     if (!diagnosed.contains(global)) wants.ofState.insert(global);
-  wants.ofState.merge(reportedBy(reported_, true));
+  wants.ofState.merge(reductionsOf(reported_, true));
   return wants;
 }
 
@@ -348,10 +341,6 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   throwIfAny(problemsOf(analyses));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
-  std::erase_if(reported_, [&](const Reported& one) {
-    const auto isIt = [&](const std::string& name) { return name == one.label->name; };
-    return one.onlyIfSaved && std::none_of(saved_globals_.begin(), saved_globals_.end(), isIt);
-  });
   if (grid.levels() > 1) refuseSavedNodes(analyses);
   prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value());
   const Lists& lists = lists_;
@@ -368,7 +357,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
   Pruned end = prune(lists.diagnostics.tasks(),
-                     united(united(totals, measuredBy(analyses)), reportedBy(reported_, false)), false);
+                     united(united(totals, measuredBy(analyses)), reductionsOf(reported_, false)), false);
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
   const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
   Pruned mend = prune(mends.tasks(), stepped, false);

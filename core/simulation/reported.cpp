@@ -4,6 +4,20 @@
 
 namespace tushar::simulation {
 
+std::vector<Reported> shownOf(std::vector<Reported> all, const std::vector<std::string>& saved) {
+  std::erase_if(all, [&](const Reported& one) {
+    return one.onlyIfSaved && std::find(saved.begin(), saved.end(), one.label->name) == saved.end();
+  });
+  return all;
+}
+
+std::set<std::string, std::less<>> reductionsOf(const std::vector<Reported>& reported, bool ofSteps) {
+  std::set<std::string, std::less<>> names;
+  for (const Reported& one : reported)
+    if (one.isOfSteps() == ofSteps) names.emplace(one.label->name);
+  return names;
+}
+
 void ReportedSoFar::addStep(Reported::Over over, const std::vector<double>& values, double dt) {
   if (!isKnown) return;
   const bool isFirst = value.empty();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,11 @@ struct Reported {
 inline Reported iterationsOfRun(const data::Label& label) {
   return {"linear_iterations", "iterations of linear solves", "1", &label, Reported::Over::sum};
 }
+
+/// The numbers that the report shows if the given reductions are saved.
+std::vector<Reported> shownOf(std::vector<Reported> all, const std::vector<std::string>& saved);
+/// The names of the reductions of numbers over steps, or of those at the end of the run.
+std::set<std::string, std::less<>> reductionsOf(const std::vector<Reported>& reported, bool ofSteps);
 
 /// What a number of the report amounts to so far. It is unknown if the run continues from a checkpoint that does not
 /// contain it, and in runs in which finer levels take smaller steps.
