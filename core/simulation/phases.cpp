@@ -44,9 +44,9 @@ std::vector<ConservedTotal> totalsAmong(const Names& diagnosed) {
   return totals;
 }
 
-/// The reductions that analysis modules contribute to the report.
-Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
-  Names names;
+/// The reductions that analysis modules and the component contribute to the report at the end of the run.
+Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<Reported>& reported) {
+  Names names = reductionsOf(reported, false);
   for (const auto& analysis : analyses) {
     for (const MeasuredError& error : analysis->errors()) names.emplace(error.label->name);
     for (const EnergyTerm& term : analysis->energies()) names.emplace(term.label->name);
@@ -356,8 +356,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned step = prune(lists.diagnostics.tasks(), wants.everyStep, false);
   Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
-  Pruned end = prune(lists.diagnostics.tasks(),
-                     united(united(totals, measuredBy(analyses)), reductionsOf(reported_, false)), false);
+  Pruned end = prune(lists.diagnostics.tasks(), united(totals, measuredBy(analyses, reported_)), false);
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
   const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
   Pruned mend = prune(mends.tasks(), stepped, false);
