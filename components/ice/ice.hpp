@@ -4,6 +4,7 @@
 #include "components/euler/euler.hpp"
 #include "components/ice/face_flow.hpp"
 #include "components/ice/gas_input.hpp"
+#include "components/ice/labels.hpp"
 #include "core/simulation/catalogue.hpp"
 
 namespace tushar::ice {
@@ -68,6 +69,9 @@ class ImplicitIce : public Ice<D> {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   bool mayRepeatStep() const override { return true; }
   std::string whyOneLevel() const override { return pressureOnOneLevel; }
+  std::vector<simulation::Reported> reported() const override {
+    return {simulation::iterationsOfRun(total::iterations)};
+  }
 };
 
 extern template class Ice<1>;

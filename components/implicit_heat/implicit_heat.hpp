@@ -32,6 +32,7 @@ class ImplicitHeat : public Component {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   std::string advice() const override { return "a <temperature> that is finite everywhere, or a smaller <delt_max>"; }
+  std::vector<simulation::Reported> reported() const override { return {simulation::iterationsOfRun(iterations)}; }
 
  private:
   Settings settings_;

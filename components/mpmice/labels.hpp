@@ -166,6 +166,9 @@ using namespace mpm::solid::g;
 
 /// Labels of totals. Those of `euler` and of the solids that have the same name add up.
 namespace total {
+inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J",
+                                            "internal and kinetic energy of the gas, kinetic and strain energy of "
+                                            "bodies, and their heat if the gas heats them"};
 inline constexpr ReductionLabel<Sum> gasMass{"GasMass", "kg", "mass of the gas"};
 inline constexpr ReductionLabel<VectorSum> gasMomentum{"GasMomentum", "kg m/s", "momentum of the gas"};
 inline constexpr ReductionLabel<Sum> gasEnergy{"GasEnergy", "J", "internal and kinetic energy of the gas"};
@@ -177,13 +180,14 @@ inline constexpr ReductionLabel<VectorSum> impulse{"GasImpulseOnBodies", "N s",
                                                    "momentum that the gas has given to walls since the start"};
 inline constexpr ReductionLabel<Sum> work{"GasWorkOnBodies", "J", "work of the gas on walls since the start"};
 inline constexpr ReductionLabel<Sum> heat{"GasHeatToBodies", "J", "heat from the gas to bodies since the start"};
+inline constexpr ReductionLabel<Sum> heatOfStep{"GasHeatOfStep", "J", "heat from the gas to bodies in the step"};
 inline constexpr ReductionLabel<Sum> burntMass{"BurntMass", "kg", "mass of bodies that burned since the start"};
 inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat released by burning since the start"};
 inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that leaked through bodies since the start"};
 inline constexpr ReductionLabel<Sum> mergedCells{
     "MergedCells", "1", "number of cells whose gas was merged with that of a neighbour in the step"};
-inline constexpr ReductionLabel<Minimum> leastFreeVolume{"LeastFreeVolume", "1",
-                                                         "smallest open fraction of a cell that contains gas"};
+inline constexpr ReductionLabel<Minimum> leastFreeVolume{
+    "LeastFreeVolume", "1", "smallest open fraction of a cell that contains gas, after the step"};
 inline constexpr ReductionLabel<Minimum> leastMass{"LeastGasMass", "kg/m^3",
                                                    "smallest mass of gas in a cell, divided by the volume of the cell"};
 inline constexpr ReductionLabel<Minimum> leastHeat{

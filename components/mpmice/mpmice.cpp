@@ -10,7 +10,6 @@
 #include "components/mpmice/tasks/advance_implicitly.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/tasks/conduct_to_bodies.hpp"
-#include "components/mpmice/tasks/diagnose.hpp"
 #include "components/mpmice/tasks/exchange_heat.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
@@ -174,7 +173,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                           withoutMaterial(all<BurntGas<D>>(settings_.gases.size())));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
-                 computes(total::mergedCells));
+                 totals<SmallCellTotals>());
   shareScalars(tasks);
   const auto reacting = all<ReactingGas<D>>(settings_.gases.size());
   if (!settings_.reactions.empty())
@@ -242,24 +241,6 @@ void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& material
                         requiresOld(delT), modifies(p::temperature));
 }
 
-/// Adds the tasks for sums since the start: of the exchange with bodies, and of the leak through them. Each sum is
-/// computed only if something needs it.
-template <int D>
-void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) const {
-  tasks.perPatch("mpmice::addImpulse", addToSum<D, Vec<D>>, requiresNew(c::impulse<D>),
-                 requiresOld(c::impulseSinceStart<D>), computes(c::impulseSinceStart<D>));
-  tasks.perPatch("mpmice::addWork", addToSum<D, double>, requiresNew(c::work), requiresOld(c::workSinceStart),
-                 computes(c::workSinceStart));
-  if (hasHeat())
-    tasks.perPatch("mpmice::addHeat", addHeatToSum<D>, requiresNew(c::heat),
-                   when(conductsToBodies(), requiresNew(c::wallHeat)), requiresOld(c::heatSinceStart),
-                   computes(c::heatSinceStart));
-  tasks.acrossMaterials("mpmice::measureLeak", measureLeak<D>, materials, all<Boxes<D>>(readsOld), with(settings_),
-                        withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 1})),
-                        withoutMaterial(requiresNew(c::massFlow<D>, 1)),
-                        withoutMaterial(requiresOld(c::leakSinceStart)), withoutMaterial(computes(c::leakSinceStart)));
-}
-
 template <int D>
 void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const {
   if (settings_.areRigid)
@@ -304,48 +285,6 @@ void GasAround<D>::scheduleRefine(TaskList& tasks) const {
   else
     tasks.perPatch("mpmice::mendNewGases", mendNewGases<D>, with(settings_.gases), newCells(),
                    all<euler::ChangedState<D>>(), all<ChangedGases>(settings_.gases.size()));
-}
-
-template <int D>
-void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
-  const auto gas = gasIn(readsOld, {});
-  tasks.perPatch("mpmice::computePressure", computePressure<D>, with(settings_), gas, computes(c::pressure));
-  tasks.perPatch("mpmice::computeVelocity", computeVelocity<D>, gas, computes(c::velocity<D>));
-  tasks.perPatch("mpmice::computeMach", computeMach<D>, with(settings_), gas, computes(c::mach<D>));
-  tasks.perPatch("mpmice::computeGasDensity", computeGasDensity<D>, gas, computes(c::gasDensity));
-  tasks.perPatch("mpmice::computeTemperature", computeTemperature<D>, with(settings_), gas, computes(c::temperature));
-  for (std::size_t k = 0; k < totals_.size(); ++k)
-    tasks.perPatch("mpmice::sumGas", euler::sumMass<D>, requiresOld(c::massOfGas[k]), computes(totals_[k]->label()));
-  tasks.perPatch("mpmice::computeSoundSpeed", computeSoundSpeed<D>, with(settings_), gas, computes(c::soundSpeed));
-  tasks.perPatch("mpmice::computeSpecificVolume", computeSpecificVolume<D>, gas, computes(c::specificVolume));
-  tasks.perPatch("mpmice::sumInternalEnergy", sumInternalEnergy<D>, gas, computes(ice::total::internalEnergy));
-  tasks.perPatch("mpmice::sumMass", sumMass<D>, requiresOld(c::density), computes(total::gasMass),
-                 computes(euler::total::mass));
-  tasks.perPatch("mpmice::sumMomentum", sumMomentum<D>, requiresOld(c::momentum<D>), computes(total::gasMomentum),
-                 computes(euler::total::momentum));
-  tasks.perPatch("mpmice::sumEnergy", euler::sumEnergy<D>, requiresOld(c::totalEnergy), computes(total::gasEnergy));
-  tasks.perPatch("mpmice::sumKineticEnergy", sumKineticEnergy<D>, gas, computes(total::gasKineticEnergy),
-                 computes(euler::total::kineticEnergy));
-  tasks.perPatch("mpmice::findLeastFreeVolume", findLeastFreeVolume<D>, gas, computes(total::leastFreeVolume));
-  tasks.perPatch("mpmice::findLeastContent", findLeastContent<D>, with(settings_), gas, computes(total::leastMass),
-                 computes(total::leastHeat));
-  tasks.perPatch("mpmice::sumImpulse", sumVectorOverVolume<D>, requiresOld(c::impulseSinceStart<D>),
-                 computes(total::impulse));
-  tasks.perPatch("mpmice::sumWork", sumOverVolume<D>, requiresOld(c::workSinceStart), computes(total::work));
-  if (hasHeat())
-    tasks.perPatch("mpmice::sumHeat", sumOverVolume<D>, requiresOld(c::heatSinceStart), computes(total::heat));
-  else
-    tasks.perPatch(
-        "mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
-  if (burns())
-    tasks.perPatch("mpmice::sumBurnt", sumBurnt<D>, with(settings_), requiresOld(c::burntSinceStart),
-                   computes(total::burntMass), computes(total::reactionHeat));
-  for (const auto& one : scalars_) {
-    tasks.perPatch("ice::computeScalar", ice::computeScalar<D>, requiresOld(c::density), requiresOld(one->held()),
-                   computes(one->value()));
-    tasks.perPatch("ice::sumScalar", ice::sumScalar<D>, requiresOld(one->held()), computes(one->total()));
-  }
-  tasks.perPatch("mpmice::sumLeak", sumOverVolume<D>, requiresOld(c::leakSinceStart), computes(total::leak));
 }
 
 template <int D>

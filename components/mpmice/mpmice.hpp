@@ -11,7 +11,7 @@ namespace tushar::mpmice {
 /// A gas in the space around bodies of particles, in D dimensions, by finite volumes with walls.
 ///
 /// The schedule of the solids calls the functions of this class, which add the tasks of the gas among those of the
-/// solids. They are in mpmice.cpp.
+/// solids. They are in mpmice.cpp and schedule_*.cpp.
 template <int D>
 class GasAround : public mpm::solid::Surroundings {
  public:
@@ -26,7 +26,8 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleForces(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
   void scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const;
-  void scheduleDiagnostics(TaskList& tasks) const;
+  void scheduleDiagnostics(TaskList& tasks, const Materials& materials) const;
+  std::vector<simulation::Reported> reported() const;
   void scheduleErrorEstimate(TaskList& tasks) const;
   void scheduleRefine(TaskList& tasks) const;
   bool isImplicit() const { return settings_.implicit.has_value(); }
@@ -54,6 +55,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;
   void scheduleBoxes(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
+  void scheduleEnergy(TaskList& tasks, const Materials& materials) const;
   /// Adds the tasks that advect scalars with the gas: before small cells are merged, and after.
   void carryScalars(TaskList& tasks) const;
   void shareScalars(TaskList& tasks) const;
@@ -78,8 +80,9 @@ class MpmIce : public Component {
   void scheduleTimeAdvance(TaskList& tasks) const override { solids_->scheduleTimeAdvance(tasks); }
   void scheduleDiagnostics(TaskList& tasks) const override {
     solids_->scheduleDiagnostics(tasks);
-    gas_->scheduleDiagnostics(tasks);
+    gas_->scheduleDiagnostics(tasks, solids_->problem().materials);
   }
+  std::vector<simulation::Reported> reported() const override { return gas_->reported(); }
   void scheduleErrorEstimate(TaskList& tasks) const override { gas_->scheduleErrorEstimate(tasks); }
   void scheduleRefine(TaskList& tasks) const override { gas_->scheduleRefine(tasks); }
   std::string whyOneLevel() const override {

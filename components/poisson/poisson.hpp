@@ -36,6 +36,7 @@ class Poisson : public Component {
 
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
+  std::vector<simulation::Reported> reported() const override { return {simulation::iterationsOfRun(iterations)}; }
 
  private:
   Settings settings_;

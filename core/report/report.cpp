@@ -77,6 +77,13 @@ Json driftOf(const Report& report) {
   return drift;
 }
 
+Json ofRun(const Report& report) {
+  Json numbers = Json::object();
+  for (const NumberOfRun& one : report.ofRun)
+    numbers[one.key] = one.value.size() == 1 ? Json(one.value.front()) : Json(one.value);
+  return numbers;
+}
+
 Json energiesOf(const Report& report) {
   const EnergyBudget& energies = report.energies;
   Json came = Json::object(), went = Json::object();
@@ -121,6 +128,17 @@ std::string driftTable(const Report& report) {
   for (const Drift& drift : report.drifts)
     text += fmt::format("  {:<24} {:>12.6g} {:>12.6g} {:>12.2e}   {}\n", drift.name, drift.start, drift.end,
                         drift.change, drift.relative ? "relative" : drift.unit);
+  return text;
+}
+
+std::string tableOfRun(const Report& report) {
+  if (report.ofRun.empty()) return "";
+  std::string text = "\n  over the run\n";
+  for (const NumberOfRun& one : report.ofRun) {
+    std::string value;
+    for (const double number : one.value) value += fmt::format("{}{:.6g}", value.empty() ? "" : ", ", number);
+    text += fmt::format("  {:<36} {:>14}{}\n", one.text, value, one.unit == "1" ? "" : "   " + one.unit);
+  }
   return text;
 }
 
@@ -288,6 +306,7 @@ std::string toJson(const Report& report) {
   json["errors"] = errorsOf(report);
   json["unmeasured"] = report.unmeasured;
   json["drift"] = driftOf(report);
+  if (!report.ofRun.empty()) json["of_run"] = ofRun(report);
   if (!report.energies.came.empty()) json["energies"] = energiesOf(report);
   json["tasks"] = tasksOf(report);
   json["archive"] = report.archive;
@@ -319,8 +338,8 @@ std::string toText(const Report& report) {
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
   }
   text += '\n';
-  text += levelsLine(report) + limitLine(report) + errorTable(report) + driftTable(report) + energyTable(report) +
-          timeTable(report);
+  text += levelsLine(report) + limitLine(report) + errorTable(report) + driftTable(report) + tableOfRun(report) +
+          energyTable(report) + timeTable(report);
   if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
   text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
   return text;

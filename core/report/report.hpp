@@ -28,6 +28,12 @@ struct Drift {
   std::string unit;
 };
 
+/// A number of the whole run, from a reduction of the component.
+struct NumberOfRun {
+  std::string key, text, unit;  ///< name in JSON, meaning, and SI unit
+  std::vector<double> value;    ///< one number or, for a vector, x, y, z
+};
+
 /// The energy budget of a run [J].
 struct EnergyBudget {
   std::vector<std::pair<std::string, double>> came,
@@ -99,6 +105,7 @@ struct Report {
   std::vector<ErrorNorms> errors;
   std::vector<std::string> unmeasured;  ///< why errors are missing: a sentence for each module without valid errors
   std::vector<Drift> drifts;
+  std::vector<NumberOfRun> ofRun;
   EnergyBudget energies;  ///< empty if not requested
   std::vector<std::string> kept;
   std::vector<tasks::LeftOut> leftOut;

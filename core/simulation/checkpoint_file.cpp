@@ -103,6 +103,12 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
     const std::vector<double>& total = run.totalsAtStart[k];
     file.dataset("/totals/" + of.name(), {of.name(), "", of.label, 1, total}, {total.size()});
   }
+  for (std::size_t k = 0; k < run.reportedSoFar.size(); ++k) {
+    const Reported& of = run.phases.reported()[k];
+    const ReportedSoFar& soFar = run.reportedSoFar[k];
+    if (of.isOfSteps() && soFar.isKnown && !soFar.value.empty())
+      file.dataset("/reported/" + of.key, {of.key, of.unit, of.text, 1, soFar.value}, {soFar.value.size()});
+  }
 }
 
 }  // namespace
@@ -125,6 +131,17 @@ tasks::LostParticles lostIn(const output::Hdf5Input& file) {
           .removed = file.has("/removed") ? std::stol(file.text("/removed")) : 0};
 }
 
+/// Reads the numbers of the report. Checkpoints of older versions do not contain them.
+void readReported(const output::Hdf5Input& file, RunState& run) {
+  for (std::size_t k = 0; k < run.reportedSoFar.size(); ++k) {
+    const Reported& of = run.phases.reported()[k];
+    if (!of.isOfSteps()) continue;
+    ReportedSoFar& soFar = run.reportedSoFar[k];
+    soFar.isKnown = file.has("/reported/" + of.key);
+    if (soFar.isKnown) soFar.value = std::get<std::vector<double>>(file.dataset("/reported/" + of.key));
+  }
+}
+
 }  // namespace
 
 void readCheckpoint(RunState& run) {
@@ -137,8 +154,12 @@ void readCheckpoint(RunState& run) {
   tasks::LostParticles lost = lostIn(file);
   if (!run.ranks.isFirst()) lost.left = 0;
   run.scheduler.relocation().setLost(lost);
-  for (const ConservedTotal& total : run.phases.totals())
-    run.totalsAtStart.push_back(std::get<std::vector<double>>(file.dataset("/totals/" + total.name())));
+  for (const ConservedTotal& total : run.phases.totals()) {
+    const std::string path = "/totals/" + total.name();  // absent if the version that wrote the file did not measure it
+    run.totalsAtStart.push_back(file.has(path) ? std::get<std::vector<double>>(file.dataset(path))
+                                               : std::vector<double>());
+  }
+  readReported(file, run);
 }
 
 output::ArchivePoint archivePointOf(const RunState& run) {

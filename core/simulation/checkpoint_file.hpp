@@ -16,6 +16,7 @@ namespace tushar::simulation {
 //     /scene             the scene with its overrides
 //     /archive/index     the text of the archive's index.xml
 //     /totals/<name>     mass, momentum and energy at the very start, for the drift of the report
+//     /reported/<key>    numbers of the report that accumulate step by step
 //     /removed           number of removed particles; `dropped` counts those that left the grid
 //     and the state: see core/collect/stored_state.hpp
 
@@ -31,8 +32,9 @@ struct CheckpointTarget {
 std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTarget& target);
 
 /// Restores a run from the checkpoint that its Problem names: the variables, step and time, the number of dropped
-/// particles, and the totals at the start. Throws InputError for a checkpoint of another format, step, component or
-/// grid, and DamageError if values have changed since the checkpoint was written. All ranks call it.
+/// particles, the totals at the start and the numbers of the report so far. Throws InputError for a checkpoint of
+/// another format, step, component or grid, and DamageError if values have changed since the checkpoint was written.
+/// All ranks call it.
 void readCheckpoint(RunState& run);
 
 /// The extent that the archive had when the checkpoint of a restarted run was written. Call it after readCheckpoint().

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation/reported.hpp"
 #include "core/simulation/settings.hpp"
 #include "core/tasks/task_list.hpp"
 
@@ -52,6 +53,9 @@ class Component {
   /// Adds tasks that compute diagnostics of the old state: totals, derived fields. Tasks whose results are not needed
   /// are omitted.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
+  /// Numbers of the whole run that the report shows, in this order. Their tasks are kept in every run, unless they are
+  /// `onlyIfSaved`.
+  virtual std::vector<Reported> reported() const { return {}; }
 };
 
 }  // namespace tushar::simulation

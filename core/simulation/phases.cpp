@@ -44,9 +44,9 @@ std::vector<ConservedTotal> totalsAmong(const Names& diagnosed) {
   return totals;
 }
 
-/// The reductions that analysis modules contribute to the report.
-Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
-  Names names;
+/// The reductions that analysis modules and the component contribute to the report at the end of the run.
+Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<Reported>& reported) {
+  Names names = reductionsOf(reported, false);
   for (const auto& analysis : analyses) {
     for (const MeasuredError& error : analysis->errors()) names.emplace(error.label->name);
     for (const EnergyTerm& term : analysis->energies()) names.emplace(term.label->name);
@@ -99,7 +99,8 @@ Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
 
 }  // namespace
 
-Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses) {
+Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
+    : reported_(component.reported()) {
   component.scheduleInitialize(lists_.initialize);
   component.scheduleComputeStableTimeStep(lists_.stableTimeStep);
   component.scheduleTimeAdvance(lists_.timeAdvance);
@@ -186,6 +187,7 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
       saved_fields_.push_back(save);
     }
   }
+  reported_ = shownOf(std::move(reported_), saved_globals_);
 }
 
 tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
@@ -288,6 +290,7 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
     (stepped.contains(sample.label) ? wants.ofState : wants.everyStep).insert(sample.label);
   for (const std::string& global : saved_globals_)
     if (!diagnosed.contains(global)) wants.ofState.insert(global);
+  wants.ofState.merge(reductionsOf(reported_, true));
   return wants;
 }
 
@@ -311,7 +314,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned step = prune(lists.diagnostics.tasks(), wants.everyStep, false);
   Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
-  Pruned end = prune(lists.diagnostics.tasks(), united(totals, measuredBy(analyses)), false);
+  Pruned end = prune(lists.diagnostics.tasks(), united(totals, measuredBy(analyses, reported_)), false);
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
   const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
   Pruned mend = prune(mends.tasks(), stepped, false);

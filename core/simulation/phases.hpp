@@ -62,6 +62,8 @@ class Phases {
   const std::vector<ConservedTotal>& totals() const { return totals_; }
   /// What the steps of carefulAdvance do differently.
   const std::string& aboutCarefulSteps() const { return about_careful_steps_; }
+  /// Numbers of the whole run that the report shows.
+  const std::vector<Reported>& reported() const { return reported_; }
 
   void printSchedule(std::ostream& out) const;
   void printDot(std::ostream& out) const;
@@ -100,6 +102,7 @@ class Phases {
   std::vector<std::string> state_, lasting_, saved_globals_, materials_;
   std::vector<SaveRequest> saved_fields_;
   std::vector<ConservedTotal> totals_;
+  std::vector<Reported> reported_;
   int levels_ = 1;
   bool smaller_steps_ = false;  ///< whether finer levels take smaller steps
 };

@@ -46,7 +46,9 @@ void RunReport::noteLevels(const std::vector<int>& steps) {
 void RunReport::noteStep(const std::vector<int>& stepsOfLevels) {
   if (!stepsOfLevels.empty()) {
     noteLevels(stepsOfLevels);
+    for (ReportedSoFar& one : run_.reportedSoFar) one.isKnown = false;
   } else {
+    run_.addStepToReported();
     updates_ += static_cast<double>(run_.problem.grid->cellCount());
     uniform_updates_ += static_cast<double>(run_.problem.grid->finest().cells().size());
   }
@@ -68,6 +70,7 @@ Report RunReport::make(double fileMemory) {
   addProgress(report);
   addTasks(report);
   addDrifts(report);
+  addReported(report);
   addErrors(report);
   report.fingerprint = collect::fingerprint(run_.warehouse, run_.phases.fingerprinted(), run_.materials());
   return report;
@@ -158,9 +161,22 @@ void RunReport::addDrifts(Report& report) {
   const Totals after = run_.measureTotals(run_.phases.report);
   for (std::size_t k = 0; k < before.size(); ++k) {
     const ConservedTotal& total = run_.phases.totals()[k];
+    if (before[k].empty()) continue;  // unknown, after a restart from a checkpoint of an older version
     const std::string unit(run_.table[run_.table.find(total.label, -1)].label->unit);
     const double scale = total.quantity == Conserved::momentum ? greatestMomentum(before, run_.phases.totals()) : 0;
     report.drifts.push_back(report::driftOf(total.name(), before[k], after[k], unit, scale));
+  }
+}
+
+/// Adds the numbers of the component that are known and finite. The diagnostics at the end have run.
+void RunReport::addReported(Report& report) {
+  for (std::size_t k = 0; k < run_.reportedSoFar.size(); ++k) {
+    const Reported& one = run_.phases.reported()[k];
+    const ReportedSoFar& soFar = run_.reportedSoFar[k];
+    if (one.isOfSteps() && !soFar.isKnown) continue;
+    std::vector<double> value = one.isOfSteps() ? soFar.value : run_.reduction(one.label->name);
+    const bool isFinite = std::all_of(value.begin(), value.end(), [](double x) { return std::isfinite(x); });
+    if (!value.empty() && isFinite) report.ofRun.push_back({one.key, one.text, one.unit, std::move(value)});
   }
 }
 

@@ -32,6 +32,7 @@ class RunReport {
   void addProgress(report::Report& report);
   void addTasks(report::Report& report);
   void addDrifts(report::Report& report);
+  void addReported(report::Report& report);
   void addErrors(report::Report& report);
 
   RunState& run_;

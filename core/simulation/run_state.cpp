@@ -26,6 +26,7 @@ RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_
   phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid, problem.smallerSteps);
   delT = table.number(data::delT, -1);
   warehouse.grow(materials());
+  reportedSoFar.resize(phases.reported().size());
 }
 
 void RunState::setTimeOfAnalyses() {
@@ -47,6 +48,12 @@ Totals RunState::measureTotals(tasks::TaskGraph& graph) {
   Totals totals;
   for (const auto& total : phases.totals()) totals.push_back(reduction(total.label));
   return totals;
+}
+
+void RunState::addStepToReported() {
+  for (std::size_t k = 0; k < reportedSoFar.size(); ++k)
+    if (const Reported& one = phases.reported()[k]; one.isOfSteps())
+      reportedSoFar[k].addStep(one.over, reduction(one.label->name), time.delT());
 }
 
 tasks::LostParticles RunState::lostParticles() {

@@ -38,6 +38,9 @@ struct RunState {
   /// The totals of the current state, computed by the given graph.
   Totals measureTotals(tasks::TaskGraph& graph);
 
+  /// Takes account of the last step in the numbers of the report.
+  void addStepToReported();
+
   /// Number of particles that all ranks have lost since the start. Collective.
   tasks::LostParticles lostParticles();
 
@@ -58,8 +61,9 @@ struct RunState {
   TimeControl time;
   RunClock clock;
   Progress progress;
-  int delT;              ///< index of the variable delT
-  Totals totalsAtStart;  ///< totals at the start of the run, or of the run that it continues
+  int delT;                                  ///< index of the variable delT
+  Totals totalsAtStart;                      ///< totals at the start of the run, or of the run that it continues
+  std::vector<ReportedSoFar> reportedSoFar;  ///< in the order of Phases::reported()
 };
 
 }  // namespace tushar::simulation

@@ -22,9 +22,11 @@ struct Sharing {
   }
   void share() {
     merged = {};
+    leastFree = {};
     const NewGas<D> fresh{{{after.density.cells(), after.momentum.cells(), after.energy.cells()}, {}, {}},
                           after.free.cells()};
-    for (const Patch& patch : grid.patches()) shareSmallCells<D>(patch, Settings{}, unshared(), fresh, merged);
+    for (const Patch& patch : grid.patches())
+      shareSmallCells<D>(patch, Settings{}, unshared(), fresh, {merged, leastFree});
   }
   /// Sets the free volume of a cell and fills it with gas of a density, at rest, at pressure 1.
   void fill(const Index<D>& cell, double free, double density = 1) {
@@ -40,6 +42,7 @@ struct Sharing {
   Grid grid;
   GasFields<D> before, after;
   Sum merged;
+  Minimum leastFree;
 };
 
 double sumOf(const std::vector<double>& values) {
@@ -49,6 +52,19 @@ double sumOf(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+/// Round-off does not decide either.
+TEST(SmallCells, ThatAreMirroredGiveTheirGasToMirroredNeighbours) {
+  for (const int side : {-1, 1})
+    for (const double roundOff : {-1e-12, 0.0, 1e-12}) {
+      Sharing<2> gas(8);
+      forEach<2>(cellsAround<2>({4, 4}, 1), [&](const Index<2>& cell) { gas.fill(cell, 0); });
+      gas.fill({4, 4}, 0.3);
+      gas.fill({3, 4}, 0.9);
+      gas.fill({4, 4 + side}, 0.9 + roundOff);
+      EXPECT_EQ(gas.targetOf({4, 4}), (Index<2>{3, 4})) << side;
+    }
+}
 
 TEST(SmallCells, GiveTheirGasToTheNeighbourWithTheWidestWay) {
   Sharing<1> gas(8);

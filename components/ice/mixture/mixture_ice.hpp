@@ -76,6 +76,9 @@ class ImplicitMixtureIce : public MixtureIce<D> {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   bool mayRepeatStep() const override { return true; }
   std::string whyOneLevel() const override { return pressureOnOneLevel; }
+  std::vector<simulation::Reported> reported() const override {
+    return {simulation::iterationsOfRun(total::iterations)};
+  }
 
  private:
   IceSettings acting_;

@@ -1,17 +1,9 @@
 #pragma once
 
-#include "components/mpm/solid/constitutive/comp_mooney_rivlin.hpp"
-#include "components/mpm/solid/constitutive/comp_neo_hook.hpp"
 #include "components/mpmice/burn/burn_bodies.hpp"
+#include "components/mpmice/tasks/sum_energy_of_bodies.hpp"
 
 namespace tushar::mpmice {
-
-/// Whether p.strainEnergy of a body is its total strain energy, rather than the increase in each step.
-inline bool storesStrain(const mpm::solid::Material& material) {
-  const auto name = material.model->name();
-  return !material.isDamageable() &&
-         (name == mpm::solid::CompNeoHook::name || name == mpm::solid::CompMooneyRivlin::name);
-}
 
 /// Views of the particles of a body at the end of a step, with their masses before burning.
 template <int D>
@@ -151,6 +143,13 @@ void sumBurnt(const Patch& patch, const Settings& settings, CellView<const doubl
     mass.add(volume * burnt[cell]);
     heat.add(settings.burning->model.heat * volume * burnt[cell]);
   });
+}
+
+/// Subtracts the heat of the reaction since the start, which burning gives to the gas, from a total [J].
+template <int D>
+void subtractReactionHeat(const Patch& patch, const Settings& settings, CellView<const double> burnt, Sum& energy) {
+  const double perVolume = settings.burning->model.heat * patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { energy.add(-perVolume * burnt[cell]); });
 }
 
 }  // namespace tushar::mpmice

@@ -122,14 +122,6 @@ void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& ofGas
   ofAll.merge(sum);
 }
 
-/// Computes the smallest open fraction of the cells that contain gas.
-template <int D>
-void findLeastFreeVolume(const Patch& patch, const GasInCells<D>& cells, Minimum& least) {
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!cells.isEmpty(cell)) least.add(cells.free[cell]);
-  });
-}
-
 /// Computes the smallest mass in any cell (for several gases, of any of them), and the smallest internal energy in any
 /// cell, less the part that p_inf contributes. Closed holes, which only keep their content, are included.
 template <int D>

@@ -112,21 +112,57 @@ class BlockedStrips {
   std::array<std::uint64_t, D> strips_{};
 };
 
-/// Finds the strips of the cells of a patch that bodies block at the start of a step.
+/// The cells of a patch through which gas may leak in a step, and their strips that bodies block at its start.
 template <int D>
-std::vector<BlockedStrips<D>> blockedStrips(const Patch& patch, const std::vector<Boxes<D>>& materials) {
-  const Box& cells = patch.cells();
-  std::vector<BlockedStrips<D>> strips(cells.size());
-  for (const Boxes<D>& boxes : materials)
-    forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& origin, const mpm::CellFrame<D>& frame, int p) {
-      const ParticleBox<D> box = boxes.of(frame, p);
-      forEach<D>(box.reach(), [&](const Index<D>& k) {
-        const Index<D> cell = origin + k;
-        if (cells.contains(cell)) strips[offsetIn<D>(cells, cell)].add(box, k);
-      });
+class LeakyCells {
+ public:
+  explicit LeakyCells(const Patch& patch)
+      : cells_(patch.cells()),
+        around_(cells_.grown(boxReach, D)),
+        numbers_(cells_.size(), none),
+        is_near_(around_.size(), 0) {}
+
+  void add(const Index<D>& cell) {
+    numbers_[offsetIn<D>(cells_, cell)] = static_cast<int>(strips_.size());
+    strips_.emplace_back();
+    forEach<D>(cellsAround<D>(cell, boxReach), [&](const Index<D>& at) { is_near_[offsetIn<D>(around_, at)] = 1; });
+  }
+  /// Adds the boxes of a body.
+  void block(const Level& level, const Boxes<D>& boxes) {
+    if (strips_.empty()) return;
+    boxes.x.template forEachOccupied<D>(boxes.x.cells(), [&](const Index<D>& origin, const data::ParticleRange& range) {
+      if (!around_.contains(origin) || is_near_[offsetIn<D>(around_, origin)] == 0) return;
+      const mpm::CellFrame<D> frame(level, origin);
+      for (const int p : range) blockBy(origin, boxes.of(frame, p));
     });
-  return strips;
-}
+  }
+  /// Calls `visit(cell, strips)` for each of the cells.
+  template <class Visit>
+  void forEachCell(Visit&& visit) const {
+    if (strips_.empty()) return;
+    forEach<D>(cells_, [&](const Index<D>& cell) {
+      const int number = numbers_[offsetIn<D>(cells_, cell)];
+      if (number != none) visit(cell, strips_[static_cast<std::size_t>(number)]);
+    });
+  }
+
+ private:
+  static constexpr int none = -1;
+
+  void blockBy(const Index<D>& origin, const ParticleBox<D>& box) {
+    forEach<D>(box.reach(), [&](const Index<D>& k) {
+      const Index<D> cell = origin + k;
+      if (!cells_.contains(cell)) return;
+      const int number = numbers_[offsetIn<D>(cells_, cell)];
+      if (number != none) strips_[static_cast<std::size_t>(number)].add(box, k);
+    });
+  }
+
+  Box cells_, around_;
+  std::vector<int> numbers_;  ///< index of each cell of the patch in strips_
+  std::vector<std::uint8_t> is_near_;
+  std::vector<BlockedStrips<D>> strips_;
+};
 
 /// The mass that leaks through bodies along an axis in a step, per cell volume. It is the part of the gas flowing in
 /// through one face and out through the other that has no straight path past the bodies in the cell.
@@ -142,17 +178,35 @@ void measureLeak(const Patch& patch, const std::vector<mpm::solid::Material>&, c
                  const Settings& settings, const GasInCells<D>& cells, CellView<const Vec<D>> flow,
                  CellView<const double> before, CellView<double> leak) {
   const FreeSpace<D> space(patch.level(), settings, cells);
-  const std::vector<BlockedStrips<D>> strips = blockedStrips<D>(patch, materials);
+  const auto mayLeak = [&](const Index<D>& cell, int d) {
+    return flow[cell][d] * flow[cell + Index<D>::unit(d)][d] > 0 && !space.isAtSide(cell, d, 0) &&
+           !space.isAtSide(cell, d, 1);
+  };
+  LeakyCells<D> leaky(patch);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     leak[cell] = before[cell];
     if (!(cells.free[cell] < 1) || cells.isEmpty(cell)) return;
+    for (int d = 0; d < D; ++d)
+      if (mayLeak(cell, d)) return leaky.add(cell);
+  });
+  for (const Boxes<D>& boxes : materials) leaky.block(patch.level(), boxes);
+  leaky.forEachCell([&](const Index<D>& cell, const BlockedStrips<D>& strips) {
     for (int d = 0; d < D; ++d) {
-      if (space.isAtSide(cell, d, 0) || space.isAtSide(cell, d, 1)) continue;
+      if (!mayLeak(cell, d)) continue;
       const OpenFaces faces = space.faces(cell, d);
-      leak[cell] += leakAlong(flow[cell][d], flow[cell + Index<D>::unit(d)][d], faces.open[0], faces.open[1],
-                              strips[offsetIn<D>(patch.cells(), cell)].open(d));
+      leak[cell] +=
+          leakAlong(flow[cell][d], flow[cell + Index<D>::unit(d)][d], faces.open[0], faces.open[1], strips.open(d));
     }
   });
+}
+
+/// Computes the heat from the gas to bodies in a step, on the patch [J]: from exchange coefficients and, if walls
+/// conduct, through walls.
+template <int D>
+void sumHeatOfStep(const Patch& patch, CellView<const double> heat, const std::optional<CellView<const double>>& walls,
+                   Sum& sum) {
+  sumOverVolume<D>(patch, heat, sum);
+  if (walls) sumOverVolume<D>(patch, *walls, sum);
 }
 
 }  // namespace tushar::mpmice

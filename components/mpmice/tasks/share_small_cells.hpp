@@ -39,8 +39,7 @@ class SmallCells {
       : level_(level), thin_walls_(thinWalls), state_(state) {}
 
   /// The neighbour that receives the gas of a small cell: one with enough free volume, otherwise one that has more free
-  /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself. Of two equally
-  /// suitable neighbours, it is the lower one.
+  /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
@@ -84,12 +83,19 @@ class SmallCells {
     double most = -1;
     forEachAround(cell, [&](const Index<D>& at) {
       const double score = scoreOf(cell, at);
-      if (score > most) {
-        most = score;
-        best = at;
-      }
+      const bool isLevel = score >= 0 && std::abs(score - most) <= offRoundShares;
+      if (isLevel ? comesFirst(at, best, cell) : score > most) best = at;
+      most = std::max(most, score);
     });
     return best;
+  }
+  /// Whether a neighbour of a cell is preferred to another one that is equally suitable, so that mirrored cells prefer
+  /// mirrored neighbours: the one that is apart from the cell along the first axis, otherwise along the next one. Of
+  /// two neighbours on opposite sides, it is the lower one.
+  static bool comesFirst(const Index<D>& at, const Index<D>& other, const Index<D>& cell) {
+    for (int d = 0; d < D; ++d)
+      if ((at[d] == cell[d]) != (other[d] == cell[d])) return other[d] == cell[d];
+    return false;
   }
   /// The score of a neighbour with more free volume; -1 for others. Neighbours that are not small have the highest
   /// scores.
@@ -202,19 +208,48 @@ inline constexpr double nothingLeft = 1e-100;
 /// The energy per cell volume below which the energy of a cell without mass counts as 0 [J/m³].
 inline constexpr double noEnergyLeft = 1e-60;
 
-/// Empties a cell in which almost nothing is left. A cell without mass that has energy keeps it; checkGas refuses it.
+/// The fraction of the content of a cell next to a hole below which a negative content of the hole is round-off.
+inline constexpr double roundOffOfHoles = 1e-18;
+
+/// Whether the mass of a hole is negative, but negligible compared with the gas next to it, like its energy.
 template <int D>
-void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, double>& held) {
-  if (!(std::abs(held.density[cell]) < nothingLeft && std::abs(held.totalEnergy[cell]) < noEnergyLeft)) return;
-  held.density[cell] = held.totalEnergy[cell] = 0;
-  held.momentum[cell] = Vec<D>::Zero();
-  for (const auto& mass : held.masses) mass[cell] = 0;
+bool isRoundOff(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, double mass,
+                double energy) {
+  if (!(mass < 0) || !(state.free[cell] < leastFreeVolume)) return false;
+  double mostMass = 0, mostEnergy = 0;
+  small.forEachAround(cell, [&](const Index<D>& at) {
+    mostMass = std::max(mostMass, state.held.density[at]);
+    mostEnergy = std::max(mostEnergy, std::abs(state.held.totalEnergy[at]));
+  });
+  return -mass <= roundOffOfHoles * mostMass && std::abs(energy) <= roundOffOfHoles * mostEnergy;
 }
 
-/// Computes the state after a step by merging small cells with neighbours, and counts the merged cells.
+/// Empties a cell in which almost nothing is left. A cell without mass that has energy keeps it; checkGas refuses it.
+template <int D>
+void emptyIfNothingLeft(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell,
+                        const euler::MixtureViews<D, double>& held) {
+  const double mass = held.density[cell], energy = held.totalEnergy[cell];
+  const bool isEmpty = std::abs(mass) < nothingLeft && std::abs(energy) < noEnergyLeft;
+  if (!isEmpty && !isRoundOff(small, state, cell, mass, energy)) return;
+  held.density[cell] = held.totalEnergy[cell] = 0;
+  held.momentum[cell] = Vec<D>::Zero();
+  for (const auto& ofGas : held.masses) ofGas[cell] = 0;
+}
+
+/// References to the totals of shareSmallCells: the number of merged cells, and the smallest free volume with gas.
+struct SmallCellTotals {
+  Sum& merged;
+  Minimum& leastFree;
+
+  static SmallCellTotals from(auto& take) {
+    return {.merged = take(computes(total::mergedCells)), .leastFree = take(computes(total::leastFreeVolume))};
+  }
+};
+
+/// Computes the state after a step by merging small cells with neighbours.
 template <int D>
 void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
-                     Sum& merged) {
+                     const SmallCellTotals& totals) {
   const Level& level = patch.level();
   forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
     const auto copy = [&](const auto& from, const auto& to) {
@@ -238,13 +273,16 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
   const SmallCells<D> small(level, settings.thinWalls, state);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     const Index<D> centre = small.targetOf(cell);
-    if (!(centre == cell)) merged.add(1);
+    if (!(centre == cell)) totals.merged.add(1);
     shareAt<D>(small, state, cell, centre, fresh.held);
-    emptyIfNothingLeft<D>(cell, fresh.held);
+    emptyIfNothingLeft<D>(small, state, cell, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
+  totals.leastFree.add(1);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    checkGas<D>(level, lawAt<D>(settings, fresh.held, fresh.free[cell], cell), cell, fresh);
+    const double free = fresh.free[cell];
+    checkGas<D>(level, lawAt<D>(settings, fresh.held, free, cell), cell, fresh);
+    if (!(free < leastFreeVolume) && fresh.held.density[cell] > 0) totals.leastFree.add(free);
   });
 }
 

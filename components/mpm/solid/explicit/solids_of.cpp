@@ -7,6 +7,7 @@
 #include "components/mpm/solid/explicit/tasks/measure_work.hpp"
 #include "components/mpm/solid/explicit/tasks/separate_bodies.hpp"
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
+#include "components/mpm/solid/explicit/tasks/transmit_force.hpp"
 #include "components/mpm/solid/explicit/tasks/velocity_updates.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "components/mpm/solid/tasks/boundary_force.hpp"
@@ -141,6 +142,9 @@ void SolidsOf<D>::scheduleEndOfStep(TaskList& tasks) const {
     tasks.perMaterial("mpm::limitVelocity", limitVelocity<D>, problem_.materials,
                       with(*problem_.method.maximumParticleVelocity), requiresOld(p::velocity<D>),
                       modifies(p::velocity<D>));
+  if (problem_.surroundings && transmitsForce() && problem_.contacts.empty())
+    tasks.perMaterial("mpm::moveByMeanVelocity", moveByMeanVelocity<D>, problem_.materials, requiresOld(delT),
+                      requiresOld(p::velocity<D>), requiresNew(p::velocity<D>), modifies(p::x<D>));
   if (heats_) scheduleHeatOfWork(tasks, problem_.materials, problem_.method.conductsHeat);
   scheduleStrainWork(tasks);
   scheduleNonlocalPlasticity(tasks);

@@ -4,6 +4,7 @@
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
+#include "core/data/vanished.hpp"
 
 // Materials that transmit force: each moves as one rigid body by the sum of the forces on it, as in Uintah.
 
@@ -81,6 +82,17 @@ void computeGridVelocityForFTM(const RankPatches& patches, const std::vector<Mat
       accelerate<D>(motions[p][m].x, ghostNodes, patches[p]->level().template reduce<D>(pull.acceleration() * dt),
                     motions[p][m].record);
   }
+}
+
+/// Moves the particles of a material that transmits force by the mean of its velocities before and after the step. They
+/// have been moved by the latter: elastic bodies need this to be stable, but as a rigid body has no waves, the mean is
+/// stable, and of second order in time.
+template <int D>
+void moveByMeanVelocity(const Patch&, const Material& material, double dt, ParticleView<const Vec<D>> before,
+                        ParticleView<const Vec<D>> after, ParticleView<Vec<D>> x) {
+  if (!material.transmitsForce) return;
+  for (int p = 0; p < x.owned(); ++p)
+    if (x[p][0] != data::removed) x[p] -= 0.5 * dt * (after[p] - before[p]);
 }
 
 }  // namespace tushar::mpm::solid

@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Mirrored scenes of gas and bodies: the same bits around fixed bodies, and round-off around others."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fsi_test import DISC, changed, rigid
+from solids import SceneTest, archive_of, columns
+from uda import FolderTest
+
+PRESSURE, UP = "c.pressure [Pa]", "c.velocity.y [m/s]"
+RESTING = changed(DISC, ("<lower>[0,0,0]<", "<lower>[-0.5,-0.5,0]<"),
+                  ("<upper>[1,1,0.02]<", "<upper>[0.5,0.5,0.015625]<"),
+                  ("[50,50,1]", "[64,64,1]"), ("[0.5,0.5,-1]", "[0,0,-1]"), ("[0.5,0.5,1]", "[0,0,1]"),
+                  ("<min>[0,0,0]</min><max>[1,1,1]", "<min>[-1,-1,0]</min><max>[1,1,1]"),
+                  ("<min>[0,0,0]</min><max>[0.5,1,1]", "<min>[-1,-1,0]</min><max>[-0.25,1,1]"),
+                  ("<velocity>[1,0.618,0]<", "<velocity>[0.75,0,0]<"))
+# Wind along x, and a disc at rest in its middle.
+WIND = RESTING.replace("<velocity>[0.75,0,0]<", "<velocity>[0,0,0]<", 1)
+
+
+class Mirror(SceneTest):
+    def asymmetry(self, text):
+        """Returns the greatest differences of pressure and velocity between mirrored cells after 40 steps."""
+        scene = self.scene(text)
+        found = columns(archive_of(scene, scene.parent, "Time/max_Timesteps=40"), "c.pressure", "c.velocity")
+        places = list(zip(found["x [m]"], found["y [m]"]))
+        number = {place: k for k, place in enumerate(places)}
+        pairs = [(k, number[x, -y]) for k, (x, y) in enumerate(places)]
+        return (max(abs(found[PRESSURE][a] - found[PRESSURE][b]) for a, b in pairs),
+                max(abs(found[UP][a] + found[UP][b]) for a, b in pairs), max(map(abs, found[UP])))
+
+    def test_of_a_fixed_disc_in_wind_has_the_same_bits(self):
+        pressure, up, greatest = self.asymmetry(changed(WIND, ('type="mpmice"', 'type="rmpmice"')))
+        self.assertEqual((pressure, up), (0, 0))
+        self.assertGreater(greatest, .1)
+
+    def test_of_a_rigid_disc_that_wind_moves_differs_by_round_off(self):
+        pressure, up, greatest = self.asymmetry(changed(rigid(WIND), ("<density>1000<", "<density>10<")))
+        self.assertLess(max(pressure, up), 1e-12)
+        self.assertGreater(greatest, .1)
+
+
+class Hole(FolderTest):
+    def test_with_a_negligible_negative_mass_ends_no_run(self):
+        fine = ("Grid/Level/Box/resolution=[800,160,1]", "Grid/Level/Box/upper=[1,0.2,0.00125]", "Time/max_Timesteps=2")
+        self.assertEqual(self.well(self.folder().run("ups/fsi/cylinder.ups", *fine))["steps"], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
