@@ -138,8 +138,8 @@ class Relocation {
     std::vector<PatchMoves> patches;
     ParticleMigration migration;
     bool goFar = false;
-    int id = -1;               ///< index of the variable that contains the ids, once it is known
-    std::size_t packed = 0;    ///< number of particles whose values are packed, on all patches
+    int id = -1;             ///< index of the variable that contains the ids, once it is known
+    std::size_t packed = 0;  ///< number of particles whose values are packed, on all patches
   };
   /// A variable being moved: its memory before and after on each patch, and the values of departed particles.
   struct Move {

@@ -72,7 +72,7 @@ TEST(Lanes, RoundAndTakeRootsAsSingleNumbersDo) {
       EXPECT_EQ(std::signbit(nearbyint(all)[lane]), std::signbit(std::nearbyint(x)));
       EXPECT_EQ(abs(all)[lane], std::abs(x));
       EXPECT_FALSE(std::signbit(abs(all)[lane]));
-      if (x >= 0) EXPECT_EQ(sqrt(all)[lane], std::sqrt(x));
+      EXPECT_EQ(sqrt(abs(all))[lane], std::sqrt(std::abs(x)));
     }
   EXPECT_TRUE(std::isnan(nearbyint(Lanes(nan))[0]) && std::isnan(abs(Lanes(nan))[0]));
   LaneIntegers whole;

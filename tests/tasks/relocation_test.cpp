@@ -57,8 +57,8 @@ void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vect
 
 /// Moves every particle by up to half of `widest` cells, within the grid.
 template <int D>
-void wander(const Patch& patch, const Material&, double widest, ParticleView<const Vec<D>> from, ParticleView<const ParticleId> ids,
-            ParticleView<Vec<D>> to) {
+void wander(const Patch& patch, const Material&, double widest, ParticleView<const Vec<D>> from,
+            ParticleView<const ParticleId> ids, ParticleView<Vec<D>> to) {
   for (int p = 0; p < from.owned(); ++p)
     for (int d = 0; d < D; ++d) {
       const double jump =
