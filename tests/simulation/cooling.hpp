@@ -73,7 +73,7 @@ class CoolingRun : public simulation::RunState {
   void step() {
     warehouse.beginStep();
     scheduler.run(phases.stableTimeStep, {time.step() + 1, time.time()});
-    auto& dt = warehouse.reduction<Minimum>(table.number(delT, -1));
+    auto& dt = warehouse.reduction<Minimum>(delT);
     dt.value = time.next(dt, std::numeric_limits<double>::infinity());
     scheduler.run(phases.timeAdvance, {time.step() + 1, time.time(), dt.value});
     scheduler.commit(phases.timeAdvance);
