@@ -1,5 +1,7 @@
 #include "core/solvers/block_factors.hpp"
 
+#include <Eigen/KLUSupport>
+
 #include <algorithm>
 
 namespace tushar::solvers {
@@ -20,10 +22,18 @@ void forEachNumber(const BlockMatrix& matrix, Visit&& visit) {
 
 }  // namespace
 
+struct BlockFactors::Factors {
+  Eigen::KLU<Eigen::SparseMatrix<double>> klu;
+};
+
+BlockFactors::~BlockFactors() = default;
+BlockFactors::BlockFactors(BlockFactors&& other) noexcept = default;
+BlockFactors& BlockFactors::operator=(BlockFactors&& other) noexcept = default;
+
 BlockFactors::BlockFactors(const BlockMatrix& matrix)
     : block_(matrix.block()),
       numbers_(matrix.rows() * matrix.block(), matrix.rows() * matrix.block()),
-      factors_(std::make_unique<decltype(factors_)::element_type>()) {
+      factors_(std::make_unique<Factors>()) {
   for (int row = 0; row < matrix.rows(); ++row)
     pattern_.emplace_back(matrix.columns(row).begin(), matrix.columns(row).end());
   std::vector<Eigen::Triplet<double>> ordinals;
@@ -34,8 +44,8 @@ BlockFactors::BlockFactors(const BlockMatrix& matrix)
   places_.resize(ordinals.size());
   for (int place = 0; place < static_cast<int>(places_.size()); ++place)
     places_[static_cast<std::size_t>(numbers_.valuePtr()[place])] = place;
-  factors_->kluCommon().btf = 0;  // systems of neighbouring nodes or cells do not fall into parts
-  factors_->analyzePattern(numbers_);
+  factors_->klu.kluCommon().btf = 0;  // systems of neighbouring nodes or cells do not fall into parts
+  factors_->klu.analyzePattern(numbers_);
 }
 
 bool BlockFactors::suits(const BlockMatrix& matrix) const {
@@ -50,13 +60,13 @@ bool BlockFactors::suits(const BlockMatrix& matrix) const {
 bool BlockFactors::factorize(const BlockMatrix& matrix) {
   std::size_t k = 0;
   forEachNumber(matrix, [&](int, int, double value) { numbers_.valuePtr()[places_[k++]] = value; });
-  factors_->factorize(numbers_);
-  return factors_->info() == Eigen::Success;
+  factors_->klu.factorize(numbers_);
+  return factors_->klu.info() == Eigen::Success;
 }
 
 void BlockFactors::solve(std::span<double> b) const {
   Eigen::Map<Eigen::VectorXd> right(b.data(), static_cast<Eigen::Index>(b.size()));
-  right = factors_->solve(right.eval());
+  right = factors_->klu.solve(right.eval());
 }
 
 }  // namespace tushar::solvers

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/KLUSupport>
+#include <Eigen/SparseCore>
 
 #include <memory>
 #include <span>
@@ -18,6 +18,9 @@ class BlockFactors {
  public:
   /// Chooses the order of elimination for the pattern of `matrix`.
   explicit BlockFactors(const BlockMatrix& matrix);
+  ~BlockFactors();
+  BlockFactors(BlockFactors&& other) noexcept;
+  BlockFactors& operator=(BlockFactors&& other) noexcept;
 
   /// Whether a matrix has the pattern for which the order was chosen.
   bool suits(const BlockMatrix& matrix) const;
@@ -27,13 +30,13 @@ class BlockFactors {
   void solve(std::span<double> b) const;
 
  private:
-  using Numbers = Eigen::SparseMatrix<double>;
+  struct Factors;  // of KLU, whose headers only the source file includes
 
   int block_;
   std::vector<std::vector<int>> pattern_;  ///< the block columns of each block row
-  Numbers numbers_;                        ///< the matrix, number by number
+  Eigen::SparseMatrix<double> numbers_;    ///< the matrix, number by number
   std::vector<int> places_;                ///< the place in numbers_ of each number of the blocks, row by row
-  std::unique_ptr<Eigen::KLU<Numbers>> factors_;
+  std::unique_ptr<Factors> factors_;
 };
 
 }  // namespace tushar::solvers
