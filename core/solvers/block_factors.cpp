@@ -22,8 +22,10 @@ void forEachNumber(const BlockMatrix& matrix, Visit&& visit) {
 
 }  // namespace
 
-struct BlockFactors::Factors {
-  Eigen::KLU<Eigen::SparseMatrix<double>> klu;
+struct BlockFactors::Factors : Eigen::KLU<Eigen::SparseMatrix<double>> {
+  double ratioOfPivots() {
+    return info() == Eigen::Success && klu_rcond(m_symbolic, m_numeric, &m_common) ? m_common.rcond : 0;
+  }
 };
 
 BlockFactors::~BlockFactors() = default;
@@ -44,8 +46,8 @@ BlockFactors::BlockFactors(const BlockMatrix& matrix)
   places_.resize(ordinals.size());
   for (int place = 0; place < static_cast<int>(places_.size()); ++place)
     places_[static_cast<std::size_t>(numbers_.valuePtr()[place])] = place;
-  factors_->klu.kluCommon().btf = 0;  // systems of neighbouring nodes or cells do not fall into parts
-  factors_->klu.analyzePattern(numbers_);
+  factors_->kluCommon().btf = 0;  // systems of neighbouring nodes or cells do not fall into parts
+  factors_->analyzePattern(numbers_);
 }
 
 bool BlockFactors::suits(const BlockMatrix& matrix) const {
@@ -57,16 +59,16 @@ bool BlockFactors::suits(const BlockMatrix& matrix) const {
   return true;
 }
 
-bool BlockFactors::factorize(const BlockMatrix& matrix) {
+double BlockFactors::factorize(const BlockMatrix& matrix) {
   std::size_t k = 0;
   forEachNumber(matrix, [&](int, int, double value) { numbers_.valuePtr()[places_[k++]] = value; });
-  factors_->klu.factorize(numbers_);
-  return factors_->klu.info() == Eigen::Success;
+  factors_->factorize(numbers_);
+  return factors_->ratioOfPivots();
 }
 
 void BlockFactors::solve(std::span<double> b) const {
   Eigen::Map<Eigen::VectorXd> right(b.data(), static_cast<Eigen::Index>(b.size()));
-  right = factors_->klu.solve(right.eval());
+  right = factors_->solve(right.eval());
 }
 
 }  // namespace tushar::solvers

@@ -24,8 +24,9 @@ class BlockFactors {
 
   /// Whether a matrix has the pattern for which the order was chosen.
   bool suits(const BlockMatrix& matrix) const;
-  /// Factorizes a matrix with the same pattern. Returns false if it is singular.
-  bool factorize(const BlockMatrix& matrix);
+  /// Factorizes a matrix with the same pattern. Returns the ratio of the smallest to the largest pivot, after rows have
+  /// been scaled: an estimate of the reciprocal condition number, 0 if the matrix is singular.
+  double factorize(const BlockMatrix& matrix);
   /// Replaces b by the solution x of A x = b.
   void solve(std::span<double> b) const;
 

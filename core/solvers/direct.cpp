@@ -33,6 +33,12 @@ int worstOf(std::span<const double> residual) {
 
 constexpr const char* singular = "the matrix is singular";
 
+bool isAutomatic(const LinearSettings& settings) { return settings.solver == "automatic"; }
+
+/// The pivots of a matrix must have a greater ratio than this. If others can solve the system, this excludes matrices
+/// that only round-off keeps regular.
+double leastRatio(const LinearSettings& settings) { return isAutomatic(settings) ? 1e-12 : 0; }
+
 /// Factors of earlier systems. A system with the same pattern uses their order of elimination, which is the same that
 /// it would choose.
 class EarlierFactors {
@@ -64,7 +70,8 @@ class EarlierFactors {
 /// A matrix and its factors.
 class FactorizedMatrix {
  public:
-  explicit FactorizedMatrix(const Unknowns& unknowns) : matrix_(unknowns) {}
+  FactorizedMatrix(const Unknowns& unknowns, const LinearSettings& settings)
+      : matrix_(unknowns), least_(leastRatio(settings)) {}
   FactorizedMatrix(const FactorizedMatrix&) = delete;
   FactorizedMatrix& operator=(const FactorizedMatrix&) = delete;
   ~FactorizedMatrix() {
@@ -79,10 +86,11 @@ class FactorizedMatrix {
     outcome.assembly += secondsSince(start);
     const auto assembled = Clock::now();
     if (!factors_ || !factors_->suits(matrix_)) factors_.emplace(EarlierFactors::ofThread().of(matrix_));
-    const bool isRegular = factors_->factorize(matrix_);
+    is_regular_ = factors_->factorize(matrix_) > least_;
     outcome.setup += secondsSince(assembled);
-    return isRegular;
+    return is_regular_;
   }
+  bool isRegular() const { return is_regular_; }
   /// Replaces b by the solution.
   void solve(std::span<double> b) const { factors_->solve(b); }
 
@@ -90,6 +98,8 @@ class FactorizedMatrix {
   static constexpr std::size_t mostKept = 1000000;  ///< blocks of a matrix whose factors stay in memory
 
   BlockMatrix matrix_;
+  double least_;  ///< smallest ratio of pivots of a regular matrix
+  bool is_regular_ = true;
   std::optional<BlockFactors> factors_;
 };
 
@@ -103,7 +113,7 @@ class DirectNewton {
         r_(u.size()),
         there_(u.size()),
         residual_(u.size()),
-        matrix_(unknowns),
+        matrix_(unknowns, settings.linear),
         changes_(settings) {}
 
   Outcome solve() {
@@ -116,6 +126,7 @@ class DirectNewton {
     outcome_.solve = secondsSince(start) - outcome_.assembly - outcome_.setup;
     return std::move(outcome_);
   }
+  bool isRegular() const { return matrix_.isRegular(); }
 
  private:
   void end(bool converged, const char* reason) {
@@ -194,10 +205,12 @@ bool isDirect(const Unknowns& unknowns, const LinearSettings& settings) {
          (settings.solver == "automatic" && settings.preconditioner == "gamg" && isSmall(unknowns));
 }
 
-Outcome solveDirectly(const Unknowns& unknowns, const LinearProblem& problem, std::span<double> x) {
+std::optional<Outcome> solveDirectly(const Unknowns& unknowns, const LinearProblem& problem,
+                                     const LinearSettings& settings, std::span<double> x) {
   Outcome outcome;
-  FactorizedMatrix matrix(unknowns);
+  FactorizedMatrix matrix(unknowns, settings);
   if (!matrix.update(problem.assemble, outcome)) {
+    if (isAutomatic(settings)) return std::nullopt;
     outcome.reason = singular;
     return outcome;
   }
@@ -212,9 +225,14 @@ Outcome solveDirectly(const Unknowns& unknowns, const LinearProblem& problem, st
   return outcome;
 }
 
-Outcome solveDirectly(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
-                      std::span<double> u) {
-  return DirectNewton(unknowns, problem, settings, u).solve();
+std::optional<Outcome> solveDirectly(const Unknowns& unknowns, NonlinearProblem& problem,
+                                     const NewtonSettings& settings, std::span<double> u) {
+  const std::vector<double> guess(u.begin(), u.end());
+  DirectNewton newton(unknowns, problem, settings, u);
+  Outcome outcome = newton.solve();
+  if (newton.isRegular() || !isAutomatic(settings.linear)) return outcome;
+  std::copy(guess.begin(), guess.end(), u.begin());
+  return std::nullopt;
 }
 
 }  // namespace tushar::solvers

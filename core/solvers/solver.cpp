@@ -53,13 +53,15 @@ std::vector<std::string> unusedOptions() { return wasLoaded ? solver().unusedOpt
 
 Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
               std::span<double> x) {
-  if (isDirect(unknowns, settings)) return solveDirectly(unknowns, problem, x);
+  if (isDirect(unknowns, settings))
+    if (auto outcome = solveDirectly(unknowns, problem, settings, x)) return *std::move(outcome);
   return solver().solve(unknowns, problem, settings, x);
 }
 
 Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
               std::span<double> u) {
-  if (isDirect(unknowns, settings.linear)) return solveDirectly(unknowns, problem, settings, u);
+  if (isDirect(unknowns, settings.linear))
+    if (auto outcome = solveDirectly(unknowns, problem, settings, u)) return *std::move(outcome);
   return solver().solve(unknowns, problem, settings, u);
 }
 
