@@ -131,14 +131,16 @@ tasks::LostParticles lostIn(const output::Hdf5Input& file) {
           .removed = file.has("/removed") ? std::stol(file.text("/removed")) : 0};
 }
 
-/// Reads the numbers of the report. Checkpoints of older versions do not contain them.
+/// Reads the numbers of the report. Checkpoints of older versions do not contain them, nor do those made before the
+/// first step.
 void readReported(const output::Hdf5Input& file, RunState& run) {
   for (std::size_t k = 0; k < run.reportedSoFar.size(); ++k) {
     const Reported& of = run.phases.reported()[k];
     if (!of.isOfSteps()) continue;
     ReportedSoFar& soFar = run.reportedSoFar[k];
-    soFar.isKnown = file.has("/reported/" + of.key);
-    if (soFar.isKnown) soFar.value = std::get<std::vector<double>>(file.dataset("/reported/" + of.key));
+    const bool isStored = file.has("/reported/" + of.key);
+    soFar.isKnown = isStored || run.problem.restart->step == 0;
+    if (isStored) soFar.value = std::get<std::vector<double>>(file.dataset("/reported/" + of.key));
   }
 }
 
