@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "components/mpm/solid/transfer/node_windows.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
 
@@ -132,7 +134,7 @@ template <class Stencils, class T, class Add>
     forEachNodeFrom<Stencils>(stencils.first(0), view, [&](T& value, std::size_t at) {
       T sum = value;
       for (int lane = 0; lane < count; ++lane) add(sum, at, lane);
-      value = sum;
+      value = std::move(sum);
     });
   else
     for (int lane = 0; lane < count; ++lane)
