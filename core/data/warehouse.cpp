@@ -180,6 +180,7 @@ Buffer Warehouse::follow(Generation generation, int number, Generation set) {
   const auto [label, material] = (*table_)[number];
   Storage& moved = storage(generation, number);
   const Layout& where = layout(set, material);
+  if (moved.held && moved.slots == where.slots) return {};
   if (moved.held && where.slots->extends(*moved.slots)) {
     pool_.reserve(moved.memory, where.slots->end * label->bytes, moved.slots->end * label->bytes);
     moved.slots = where.slots;
