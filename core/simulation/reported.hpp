@@ -41,6 +41,7 @@ std::set<std::string, std::less<>> reductionsOf(const std::vector<Reported>& rep
 /// What a number of the report amounts to so far. It is unknown if the run continues from a checkpoint that does not
 /// contain it, and in runs in which finer levels take smaller steps.
 struct ReportedSoFar {
+  int reduction = -1;  ///< index of the reduction; -1 if no task computes it
   bool isKnown = true;
   std::vector<double> value;  ///< the components; empty before the first step
 

@@ -26,7 +26,7 @@ RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_
   phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid, problem.smallerSteps);
   delT = table.number(data::delT, -1);
   warehouse.grow(materials());
-  reportedSoFar.resize(phases.reported().size());
+  for (const Reported& one : phases.reported()) reportedSoFar.push_back({.reduction = table.find(one.label->name, -1)});
 }
 
 void RunState::setTimeOfAnalyses() {
@@ -52,8 +52,8 @@ Totals RunState::measureTotals(tasks::TaskGraph& graph) {
 
 void RunState::addStepToReported() {
   for (std::size_t k = 0; k < reportedSoFar.size(); ++k)
-    if (const Reported& one = phases.reported()[k]; one.isOfSteps())
-      reportedSoFar[k].addStep(one.over, reduction(one.label->name), time.delT());
+    if (ReportedSoFar& soFar = reportedSoFar[k]; phases.reported()[k].isOfSteps() && soFar.reduction >= 0)
+      soFar.addStep(phases.reported()[k].over, warehouse.reductionValues(soFar.reduction), time.delT());
 }
 
 tasks::LostParticles RunState::lostParticles() {

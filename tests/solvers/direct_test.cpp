@@ -150,6 +150,8 @@ TEST(DirectSolve, LeavesNearlySingularSystemsToPetsc) {
   const LinearSettings automatic{"automatic", "gamg", 1e-10, 100, ""};
   ASSERT_TRUE(isDirect(unknowns, automatic));
 
+  EXPECT_FALSE(solveDirectly(unknowns, {assemble, b}, automatic, x).has_value());
+  EXPECT_TRUE(solveDirectly(unknowns, {assemble, b}, {"preonly", "lu", 1e-12, 10, ""}, x).has_value());
   const Outcome outcome = solve(unknowns, {assemble, b}, automatic, x);
 
   EXPECT_TRUE(outcome.converged) << outcome.reason;

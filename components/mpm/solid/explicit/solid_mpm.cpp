@@ -16,8 +16,8 @@ void SolidMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
 template <int D>
 void SolidMpm<D>::scheduleCarefulTimeAdvance(TaskList& tasks) const {
   const Method& method = problem_.method;
-  const bool isBound = method.affine || method.projectsGradient || problem_.motion || problem_.surroundings;
-  if (method.stressUpdate == StressUpdate::last && method.removesLost && !isBound)
+  const bool needsUsl = method.affine || method.projectsGradient || problem_.motion || problem_.surroundings;
+  if (method.stressUpdate == StressUpdate::last && method.removesLost && !needsUsl)
     scheduleStep(tasks, StressUpdate::modifiedLast);
 }
 
