@@ -26,7 +26,8 @@ RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_
   phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid, problem.smallerSteps);
   delT = table.number(data::delT, -1);
   warehouse.grow(materials());
-  for (const Reported& one : phases.reported()) reportedSoFar.push_back({.reduction = table.find(one.label->name, -1)});
+  for (const Reported& one : phases.reported())
+    reportedSoFar.emplace_back().reduction = table.find(one.label->name, -1);
 }
 
 void RunState::setTimeOfAnalyses() {
