@@ -12,9 +12,11 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "core/base/even_order.hpp"
 #include "core/base/launcher.hpp"
 
 namespace tushar {
@@ -128,10 +130,26 @@ void Threads::resize(int count) {
   if (count > 1) pool_ = std::make_unique<Pool>(count);
 }
 
+void Threads::distribute(const std::vector<double>& costs) {
+  constexpr double worthwhile = 0.95;
+  if (costs.empty()) return order_.clear();
+  std::vector<int> now = order_;
+  if (now.size() != costs.size()) {
+    now.resize(costs.size());
+    std::iota(now.begin(), now.end(), 0);
+  }
+  std::vector<int> even = evenOrder(costs, count_);
+  if (greatestLoad(costs, even, count_) < worthwhile * greatestLoad(costs, now, count_)) order_ = std::move(even);
+}
+
 void Threads::run(int times, const Loop& loop, trace::Kind kind) {
   if (counted_outside_ && times == 1) return loop.call(loop.called, 0);
   FirstFailure failure;
-  const auto watched = [&](int k) { failure.watch(k, [&] { loop.call(loop.called, k); }); };
+  const bool isOrdered = order_.size() == static_cast<std::size_t>(times);
+  const auto watched = [&](int turn) {
+    const int k = isOrdered ? order_[turn] : turn;
+    failure.watch(k, [&] { loop.call(loop.called, k); });
+  };
   const auto workAlone = [&] {
     for (int k = 0; k < times; ++k) watched(k);
   };

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/trace.hpp"
 
@@ -26,6 +27,12 @@ class Threads {
   int count() const { return count_; }
   /// Sets the number of threads for the next and later loops.
   void resize(int count);
+
+  /// Distributes the iterations of later loops that have as many of them as `costs` has entries, so that the sum of
+  /// costs is about the same for each thread. Until the next call, each thread gets the same iterations in every loop,
+  /// except those that it takes from a thread that is late. Does nothing if the gain would be less than a twentieth. If
+  /// `costs` is empty, each thread gets consecutive iterations again.
+  void distribute(const std::vector<double>& costs);
 
   /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If a
   /// call throws, the remaining calls are made nevertheless; then the exception of the call with the lowest number is
@@ -73,6 +80,7 @@ class Threads {
   bool counted_outside_ = false;
   Use use_;
   std::unique_ptr<Pool> pool_;  ///< null if there is only one thread
+  std::vector<int> order_;      ///< iterations of loops of this length, by thread; empty: consecutive
 };
 
 }  // namespace tushar

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/grid/choose_patches.hpp"
 #include "core/tasks/kept_levels.hpp"
 
 namespace tushar::tasks {
@@ -71,7 +70,7 @@ template <class Work>
 void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& work) {
   const grid::Patch& patch = warehouse_->grid().patches()[place];
   const trace::Span span(trace::Kind::task, task.task.name, patch.id());
-  if (warehouse_->ranks().isAlone()) return work(patch);
+  if (warehouse_->ranks().isAlone() && threads_.count() == 1) return work(patch);
   const auto started = Clock::now();
   work(patch);
   costs_[place] += seconds(Clock::now() - started);
@@ -102,27 +101,6 @@ bool Scheduler::finishExchange(CompiledTask& task) {
   task.exchangeSeconds += taken;
   task.seconds -= taken;
   return !heard_stop_;
-}
-
-std::vector<double> Scheduler::takeCosts() {
-  costs_.resize(warehouse_->grid().patches().size());
-  for (double& cost : costs_) cost /= threads_.count();
-  return std::exchange(costs_, std::vector<double>(costs_.size()));
-}
-
-int Scheduler::usefulThreads() const {
-  const int most = std::max(1, std::min(most_threads_, warehouse_->patches()));
-  if (cells_per_thread_ == 0) return most;
-  const double cells = static_cast<double>(warehouse_->grid().cellCount()) / warehouse_->ranks().size();
-  return grid::usefulThreads(cells, cells_per_thread_, most);
-}
-
-void Scheduler::forgetLayout() {
-  exchange_.forgetLayout();
-  relocation_.forgetLayout();
-  costs_.clear();
-  with_patches_.reset();
-  threads_.resize(usefulThreads());
 }
 
 void Scheduler::divideReductions(const CompiledTask& task) {
@@ -170,6 +148,7 @@ void Scheduler::start(const TaskGraph& graph, int end, const StepInfo& at) {
   error_.reset();
   heard_stop_ = false;
   costs_.resize(warehouse_->grid().patches().size());
+  distributeOverThreads();
   relocation_.start();
   exchange_.forgetParticles();
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);

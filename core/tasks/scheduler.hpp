@@ -101,6 +101,7 @@ class Scheduler {
   const mpi::Communicator& ranksWithPatches();
   /// Starts a run of the first `end` tasks.
   void start(const TaskGraph& graph, int end, const StepInfo& at);
+  void distributeOverThreads();
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
   /// Completes node variables of which each patch has written only its own nodes.
@@ -142,6 +143,7 @@ class Scheduler {
   std::vector<double> costs_;            ///< for each patch: time of the threads that worked on it [s]
   bool heard_stop_ = false;              ///< whether a rank from which this one receives values has stopped
   int level_ = -1;                       ///< the level on whose patches the graph runs; -1: all
+  int runs_ = 0;                         ///< number of runs of a graph so far
   int running_ = 0;                      ///< index in the graph of the task that is running
   int end_ = 0;                          ///< end of the range of tasks to run
   Clock::time_point lap_started_;

@@ -45,6 +45,24 @@ TEST(Threads, CallTheLoopOnceForEachNumber) {
   }
 }
 
+TEST(Threads, CallTheLoopOnceForEachNumberInAnyDistribution) {
+  Threads threads(3);
+  for (const std::vector<double>& costs : {std::vector<double>{}, {0, 0, 0}, {5, 1, 1}, {1, 2, 3, 4, 5, 6, 7}, {9}}) {
+    threads.distribute(costs);
+    for (const int times : {1, 3, 7, 10}) {
+      std::vector<std::atomic<int>> calls(times);
+      threads.forEach(times, [&](int k) { ++calls[k]; });
+      for (const std::atomic<int>& called : calls) EXPECT_EQ(called, 1) << costs.size() << " costs, " << times;
+    }
+  }
+}
+
+TEST(Threads, ReportTheFailureOfTheLowestNumberInAnyDistribution) {
+  Threads threads(2);
+  threads.distribute({1, 2, 3, 4});
+  EXPECT_EQ(failureOf(threads, {3, 1}, 4), std::pair(std::string("1"), 4));
+}
+
 TEST(Threads, WorkAtTheSameTime) {
   Threads threads(2);
   std::mutex mutex;

@@ -176,6 +176,33 @@ void standIn(const Patch& patch, const Material& material, ParticleMaker& maker,
   });
 }
 
+/// Calls `visit(cell, body, inCell)` for the cells and bodies of a patch that may have particles at the start: cell by
+/// cell, with the bodies in their order; `inCell` is 0 for the first body of a cell. A cell further than `around` from
+/// the patch is not visited, and one that the bounds of a body do not reach only if particles are displaced.
+template <int D, class Visit>
+void forEachCellAndBody(const Patch& patch, const std::vector<Body>& bodies, int around, Visit&& visit) {
+  const Box cells = patch.cellsWithin(around);
+  std::vector<std::pair<const Body*, Box>> all, ofRow;
+  for (const Body& body : bodies) {
+    const input::Box3 bounds = body.shape->bounds();
+    const bool isAnywhere = body.seeds || around > 0;
+    all.emplace_back(&body, isAnywhere ? cells : patch.level().cellsNear(bounds.min, bounds.max).intersect(cells));
+  }
+  forEachRow<D>(cells, [&](Index<D> cell, int count) {
+    ofRow.clear();
+    for (const auto& one : all) {
+      Index<D> at = cell;
+      at[0] = one.second.lower[0];
+      if (one.second.contains(at)) ofRow.push_back(one);
+    }
+    for (int k = 0; k < count && !ofRow.empty(); ++k, ++cell[0]) {
+      ParticleId inCell = 0;
+      for (const auto& [body, box] : ofRow)
+        if (box.contains(cell)) visit(cell, *body, inCell);
+    }
+  });
+}
+
 /// Fills each body with its particles: `particlesPerCell` along each axis, each in the centre of one of the equal parts
 /// of a cell, if the shape contains that point. As in Uintah, bodies may overlap; if such points lie on a face that two
 /// bodies share, both bodies have particles there.
@@ -190,30 +217,27 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   if (&level != &level.finest()) return standIn<D>(patch, material, maker, start, particles);
   // A displaced particle may start in another cell than the one that made it, hence on another patch.
   const int around = cellsMovedAtStart(level, start);
-  forEach<D>(patch.cellsWithin(around), [&](const Index<D>& cell) {
-    ParticleId inCell = 0;
-    for (const Body& body : material.bodies) {
-      if (body.seeds) {
-        if (patch.cells().contains(cell)) addSeeds<D>(level, start, material, body, cell, inCell, maker, particles);
-        continue;
-      }
-      const Seed part = partOfCell<D>(level, body.particlesPerCell);
-      forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place) {
-        Vec<D> at;
-        for (int d = 0; d < D; ++d)
-          at[d] = level.nodePosition(d, 0) +
-                  (cell[d] + (k[d] + 0.5) * part.domain(level.axis(d), level.axis(d))) * level.spacing(d);
-        const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
-        Index<D> home = cell;
-        if (start.solution) {
-          const Vec3 point = level.expandPoint<D>(at);
-          home = level.cellOf<D>(at + level.reduce<D>(start.solution->displacement(elasticOf(material), point, 0)));
-        }
-        if (!patch.cells().contains(home)) return;
-        maker.add(home, id);
-        particles.add(level, start, material, body, at, {place, part.domain, part.volume});
-      });
+  forEachCellAndBody<D>(patch, material.bodies, around, [&](const Index<D>& cell, const Body& body, ParticleId& inCell) {
+    if (body.seeds) {
+      if (patch.cells().contains(cell)) addSeeds<D>(level, start, material, body, cell, inCell, maker, particles);
+      return;
     }
+    const Seed part = partOfCell<D>(level, body.particlesPerCell);
+    forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place) {
+      Vec<D> at;
+      for (int d = 0; d < D; ++d)
+        at[d] = level.nodePosition(d, 0) +
+                (cell[d] + (k[d] + 0.5) * part.domain(level.axis(d), level.axis(d))) * level.spacing(d);
+      const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
+      Index<D> home = cell;
+      if (start.solution) {
+        const Vec3 point = level.expandPoint<D>(at);
+        home = level.cellOf<D>(at + level.reduce<D>(start.solution->displacement(elasticOf(material), point, 0)));
+      }
+      if (!patch.cells().contains(home)) return;
+      maker.add(home, id);
+      particles.add(level, start, material, body, at, {place, part.domain, part.volume});
+    });
   });
 }
 
