@@ -62,10 +62,10 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew),
                         withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
   if (settings_.gases.empty())
-    tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume),
+    tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume, 1),
                    computes(c::density), computes(c::momentum<D>), computes(c::totalEnergy));
   else
-    tasks.perPatch("mpmice::initializeGases", initializeGases<D>, with(settings_), requiresNew(c::freeVolume),
+    tasks.perPatch("mpmice::initializeGases", initializeGases<D>, with(settings_), requiresNew(c::freeVolume, 1),
                    all<NewContent<D>>(settings_.gases.size()));
   for (const auto& one : scalars_)
     tasks.perPatch("ice::initializeScalar", ice::initializeScalar<D>, with(one.get()), requiresNew(c::density),

@@ -10,7 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
 from fsi_test import LIGHT, ConservationTest, also, changed, rigid
 from same_bits import SameBitsTest
-from solids import globals_of
+from solids import RefusedSceneTest, globals_of
 from sus import run
 
 CONTACT, BUBBLE = (fsi.scene(name).read_text() for name in ("contact_of_gases", "bubble_and_body"))
@@ -114,6 +114,22 @@ class Bits(SameBitsTest):
 
     def test_are_the_same_in_space(self):
         self.assert_same("bubble_and_body", 15, ("[1,1,1]", "[3,2,2]", "[5,1,4]"), *self.SPACE, ranks=1)
+
+
+class RegionsWithoutGas(RefusedSceneTest):
+    def test_are_refused_away_from_bodies(self):
+        plug = fsi.scene("plug").read_text()
+        self.assert_refused(changed(plug, ("<max>[1,1,1]</max>", "<max>[0.8,1,1]</max>")),
+                            "no geom_object contains the centre of the cell at (0.805, 0.5, 0.5)")
+        self.assert_refused(changed(CONTACT, ("<max>[0.5,1,1]</max>", "<max>[0.3,1,1]</max>")),
+                            "the gases fill 0 of the cell around (0.305, 0.5, 0.5)")
+
+    def test_are_taken_for_the_shapes_of_bodies_beside_bodies(self):
+        for text in (CONTACT, fsi.scene("contact").read_text()):
+            cut = run(self.scene(changed(text, ("<max>[0.5,1,1]</max>", "<max>[0.445,1,1]</max>"))),
+                      "Time/max_Timesteps=10", options=("--quiet",)).report["fingerprint"]
+            whole = run(self.scene(text), "Time/max_Timesteps=10", options=("--quiet",)).report["fingerprint"]
+            self.assertEqual(cut, whole)
 
 
 if __name__ == "__main__":

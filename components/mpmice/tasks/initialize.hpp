@@ -22,14 +22,27 @@ void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFou
   }
 }
 
-/// The initial gas of a cell with some free volume: the gas at its centre or, if there is none, at the nearest cell
-/// centre that has gas, since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas.
+/// Whether no body is in a cell or in the cells around it. There, scenes have no reason to leave out the gas.
 template <int D>
-euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
+bool isAwayFromBodies(const Level& level, CellView<const double> free, const Index<D>& cell) {
+  bool isAway = true;
+  forEach<D>(level.clipCells(cellsAround<D>(cell, 1)),
+             [&](const Index<D>& near) { isAway = isAway && free[near] > 1 - leastFreeVolume; });
+  return isAway;
+}
+
+/// The initial gas of a cell with some free volume: the gas at its centre or, if there is none, at the nearest cell
+/// centre that has gas, since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, or if
+/// there is none at this one, although no body is near.
+template <int D>
+euler::State<D> gasOf(const Level& level, const euler::Settings& settings, CellView<const double> free,
+                      const Index<D>& cell) {
   const auto at = [&](const Index<D>& of) {
     return euler::stateAt<D>(level, settings, level.expandPoint<D>(level.cellCentre<D>(of)));
   };
   if (const auto own = at(cell)) return *own;
+  const auto refuse = [&] { euler::refuseUncovered(settings, level.expandPoint<D>(level.cellCentre<D>(cell))); };
+  if (isAwayFromBodies<D>(level, free, cell)) refuse();
   std::optional<euler::State<D>> nearest;
   int least = std::numeric_limits<int>::max();
   const auto take = [&](const Index<D>& other, int apart) {
@@ -40,7 +53,7 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
     }
   };
   searchAround<D>(level, cell, take, [&] { return nearest.has_value(); });
-  if (!nearest) euler::refuseUncovered(settings, level.expandPoint<D>(level.cellCentre<D>(cell)));
+  if (!nearest) refuse();
   return *nearest;
 }
 
@@ -54,7 +67,7 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
     density[cell] = totalEnergy[cell] = 0;
     momentum[cell] = Vec<D>::Zero();
     if (free[cell] < leastFreeVolume) return;
-    const euler::State<D> state = gasOf<D>(patch.level(), settings.gas, cell);
+    const euler::State<D> state = gasOf<D>(patch.level(), settings.gas, free, cell);
     density[cell] = free[cell] * state[euler::kDensity];
     for (int d = 0; d < D; ++d) momentum[cell][d] = free[cell] * state[euler::kVelocity(d)];
     totalEnergy[cell] = free[cell] * state[euler::kPressure<D>];
@@ -62,10 +75,11 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
 }
 
 /// The initial gases of a cell: those at its centre or, if there are none, at the nearest cell centre that has gas,
-/// since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, or if the gases do not fill
-/// the cell.
+/// since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, if there is none at this one,
+/// although no body is near, or if the gases do not fill the cell.
 template <int D>
-ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, const Index<D>& cell) {
+ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases,
+                             CellView<const double> free, const Index<D>& cell) {
   const auto pointOf = [&](const Index<D>& of) { return level.expandPoint<D>(level.cellCentre<D>(of)); };
   Vec3 point = pointOf(cell);
   auto start = ice::MixtureStart<D>::at(level, gases, point);
@@ -78,7 +92,7 @@ ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settin
     point = pointOf(other);
     least = apart;
   };
-  searchAround<D>(level, cell, take, [&] { return start.filled > 0; });
+  if (!isAwayFromBodies<D>(level, free, cell)) searchAround<D>(level, cell, take, [&] { return start.filled > 0; });
   start.check(gases, point);
   return start;
 }
@@ -94,7 +108,7 @@ void initializeGases(const Patch& patch, const Settings& settings, CellView<cons
       if (!settings.burning || settings.burning->gas != k) euler::checkObjects<D>(level, settings.gases[k]);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const bool hasRoom = !(free[cell] < leastFreeVolume);
-    const auto start = hasRoom ? gasesOf<D>(level, settings.gases, cell) : ice::MixtureStart<D>{.share = {1}};
+    const auto start = hasRoom ? gasesOf<D>(level, settings.gases, free, cell) : ice::MixtureStart<D>{.share = {1}};
     held.density[cell] = free[cell] * start.sum[euler::kDensity];
     for (int d = 0; d < D; ++d) held.momentum[cell][d] = free[cell] * start.sum[euler::kVelocity(d)];
     held.totalEnergy[cell] = free[cell] * start.sum[euler::kPressure<D>];
