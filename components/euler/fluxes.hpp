@@ -7,25 +7,40 @@ namespace tushar::euler {
 
 /// The state of the gas at a face where two states meet: rho, v and the pressure in `w`, and the total energy per
 /// volume.
-template <int D, int K = 1>
+template <int D, int K = 1, class Number = double>
 struct FaceState {
-  State<D, K> w;
-  double energy;
+  State<D, K, Number> w;
+  Number energy;
 };
 
 /// The flux F = (m, m v + p n, (E + p) v_n) through a face normal to `Axis`, where m = rho v_n. For several gases, it
 /// also contains the mass and the volume fraction of each gas, times v_n.
-template <int D, int Axis, int K>
-State<D, K> fluxOf(const FaceState<D, K>& face) {
-  const double normal = face.w[kVelocity(Axis)];
-  const double mass = face.w[kDensity] * normal;
-  State<D, K> flux;
+template <int D, int Axis, int K, class Number>
+[[gnu::always_inline]] inline State<D, K, Number> fluxOf(const FaceState<D, K, Number>& face) {
+  const Number normal = face.w[kVelocity(Axis)];
+  const Number mass = face.w[kDensity] * normal;
+  State<D, K, Number> flux;
   flux[kDensity] = mass;
   for (int k = 0; k < D; ++k) flux[kVelocity(k)] = mass * face.w[kVelocity(k)];
   flux[kVelocity(Axis)] += face.w[kPressure<D>];
   flux[kPressure<D>] = (face.energy + face.w[kPressure<D>]) * normal;
   for (std::size_t k = D + 2; k < flux.size(); ++k) flux[k] = face.w[k] * normal;
   return flux;
+}
+
+/// The squared speeds of sound in two states [m²/s²].
+template <int D, class G, class Number, std::size_t N>
+[[gnu::always_inline]] inline std::array<Number, 2> soundSpeedsSquared(const G& lawL, const std::array<Number, N>& left,
+                                                                       const G& lawR,
+                                                                       const std::array<Number, N>& right) {
+  if constexpr (std::is_same_v<G, StiffenedGas>) {  // with one division
+    const Number inverse = lawL.gamma / (left[kDensity] * right[kDensity]);
+    return {lawL.heat(left[kDensity], left[kPressure<D>]) * right[kDensity] * inverse,
+            lawR.heat(right[kDensity], right[kPressure<D>]) * left[kDensity] * inverse};
+  } else {
+    return {lawL.soundSpeedSquared(left[kDensity], left[kPressure<D>]),
+            lawR.soundSpeedSquared(right[kDensity], right[kPressure<D>])};
+  }
 }
 
 /// The approximate Riemann solver with three waves (HLLC).
@@ -35,46 +50,47 @@ State<D, K> fluxOf(const FaceState<D, K>& face) {
 /// for round-off; the mean makes the flux of the mirrored problem bitwise mirrored. Source: E. F. Toro, Riemann Solvers
 /// and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
 struct Hllc {
-  template <int D, int Axis, class G>
-  static FaceState<D, kGases<G>> solve(const G& gas, const State<D, kGases<G>>& left,
-                                       const State<D, kGases<G>>& right) {
+  template <int D, int Axis, class G, class Number, std::size_t N>
+  [[gnu::always_inline]] static FaceState<D, kGases<G>, Number> solve(const G& gas, const std::array<Number, N>& left,
+                                                                      const std::array<Number, N>& right) {
+    using std::sqrt;
     constexpr int gases = kGases<G>;
     const auto &lawL = lawIn<D>(gas, left), &lawR = lawIn<D>(gas, right);
-    const double rhoL = left[kDensity], uL = left[kVelocity(Axis)], pL = lawL.pressureOf(rhoL, left[kPressure<D>]);
-    const double rhoR = right[kDensity], uR = right[kVelocity(Axis)], pR = lawR.pressureOf(rhoR, right[kPressure<D>]);
-    const double cL2 = lawL.soundSpeedSquared(rhoL, left[kPressure<D>]);
-    const double cR2 = lawR.soundSpeedSquared(rhoR, right[kPressure<D>]);
-    const double rootL = std::sqrt(rhoL), rootR = std::sqrt(rhoR), weight = 1 / (rootL + rootR);
-    const double spread = (uR - uL) * weight;
-    const double u = (rootL * uL + rootR * uR) * weight;
-    const double c = std::sqrt((rootL * cL2 + rootR * cR2) * weight + 0.5 * rootL * rootR * (spread * spread));
-    const double slowL = uL - std::sqrt(cL2), slow = u - c, fastR = uR + std::sqrt(cR2), fast = u + c;
-    const double sL = slowL < slow ? slowL : slow;
-    const double sR = fastR > fast ? fastR : fast;
-    const double mL = rhoL * (sL - uL), mR = rhoR * (sR - uR);
-    const double contact = ((pR - pL) + (mL * uL - mR * uR)) / (mL - mR);
-    const double pStar = 0.5 * ((pL + mL * (contact - uL)) + (pR + mR * (contact - uR)));
+    const Number rhoL = left[kDensity], uL = left[kVelocity(Axis)], pL = lawL.pressureOf(rhoL, left[kPressure<D>]);
+    const Number rhoR = right[kDensity], uR = right[kVelocity(Axis)], pR = lawR.pressureOf(rhoR, right[kPressure<D>]);
+    const auto [cL2, cR2] = soundSpeedsSquared<D>(lawL, left, lawR, right);
+    // Einfeldt's mean, whose weights sqrt(rho) are multiplied by the sum of both, so that one root suffices.
+    const Number root = sqrt(rhoL * rhoR), weightL = rhoL + root, weightR = rhoR + root, weights = weightL + weightR;
+    const Number inWeights = 1.0 / weights, jump = uR - uL;
+    const Number u = (weightL * uL + weightR * uR) * inWeights;
+    const Number c = sqrt((weightL * cL2 + weightR * cR2 + 0.5 * root * (jump * jump)) * weights) * inWeights;
+    const Number slowL = uL - sqrt(cL2), slow = u - c, fastR = uR + sqrt(cR2), fast = u + c;
+    const Number sL = select(slowL < slow, slowL, slow);
+    const Number sR = select(fastR > fast, fastR, fast);
+    const Number mL = rhoL * (sL - uL), mR = rhoR * (sR - uR);
+    const Number push = (pR - pL) + (mL * uL - mR * uR), inertia = mL - mR, contact = push / inertia;
+    const Number pStar = 0.5 * ((pL + mL * (contact - uL)) + (pR + mR * (contact - uR)));
 
-    const bool fromLeft = contact >= 0;
-    const bool between = sL < 0 && sR > 0;
-    FaceState<D, gases> face;
-    for (std::size_t k = 0; k < face.w.size(); ++k) face.w[k] = fromLeft ? left[k] : right[k];
-    const double s = fromLeft ? sL : sR;
-    const double m = fromLeft ? mL : mR;
-    const double side = face.w[kVelocity(Axis)], p = fromLeft ? pL : pR;
-    const double internal = lawIn<D>(gas, face.w).energyOf(face.w[kDensity], face.w[kPressure<D>]);
-    const double energy = internal + 0.5 * face.w[kDensity] * speedSquared<D>(face.w);
-    const double inverse = 1 / (s - contact);
-    const double energyStar = ((s - side) * energy - p * side + pStar * contact) * inverse;
-    const double rhoStar = m * inverse;
+    const auto fromLeft = contact >= 0.0;
+    const auto between = (sL < 0.0) & (sR > 0.0);
+    FaceState<D, gases, Number> face;
+    for (std::size_t k = 0; k < face.w.size(); ++k) face.w[k] = select(fromLeft, left[k], right[k]);
+    const Number s = select(fromLeft, sL, sR);
+    const Number m = select(fromLeft, mL, mR);
+    const Number side = face.w[kVelocity(Axis)], p = select(fromLeft, pL, pR);
+    const Number internal = lawIn<D>(gas, face.w).energyOf(face.w[kDensity], face.w[kPressure<D>]);
+    const Number energy = internal + 0.5 * face.w[kDensity] * speedSquared<D>(face.w);
+    const Number inverse = inertia / (s * inertia - push);  // 1 / (s - contact), without waiting for the contact
+    const Number energyStar = ((s - side) * energy - p * side + pStar * contact) * inverse;
+    const Number rhoStar = m * inverse;
     if constexpr (gases > 1) {
       const double thicker = between ? (s - side) * inverse : 1;
       for (int k = 0; k < gases; ++k) face.w[kMass<D>(k)] *= thicker;
     }
-    face.w[kDensity] = between ? rhoStar : face.w[kDensity];
-    face.w[kVelocity(Axis)] = between ? contact : side;
-    face.w[kPressure<D>] = between ? pStar : p;
-    face.energy = between ? energyStar : energy;
+    face.w[kDensity] = select(between, rhoStar, face.w[kDensity]);
+    face.w[kVelocity(Axis)] = select(between, contact, side);
+    face.w[kPressure<D>] = select(between, pStar, p);
+    face.energy = select(between, energyStar, energy);
     return face;
   }
 };

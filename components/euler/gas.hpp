@@ -10,15 +10,16 @@
 
 #include "components/euler/curved_gas.hpp"
 #include "components/euler/real_gas.hpp"
+#include "core/base/limiters.hpp"
 
 namespace tushar::euler {
 
 /// The state of a cell in D dimensions, as numbers that loops over rows keep in registers. Primitive: density [kg/m³],
 /// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume.
 /// For K > 1 gases (mixture.hpp), followed by the mass of each gas per volume of the cell [kg/m³] and its volume
-/// fraction; the density is then the sum of the masses.
-template <int D, int K = 1>
-using State = std::array<double, D + 2 + (K > 1 ? 2 * K : 0)>;
+/// fraction; the density is then the sum of the masses. Loops over several cells at a time have Lanes as numbers.
+template <int D, int K = 1, class Number = double>
+using State = std::array<Number, D + 2 + (K > 1 ? 2 * K : 0)>;
 
 /// Indices of the components of a State: density, component `axis` of velocity or momentum, pressure or total energy.
 inline constexpr std::size_t kDensity = 0;
@@ -38,27 +39,25 @@ constexpr std::size_t kShare(int k) {
 /// A stiffened gas: p = (gamma - 1) rho e - gamma p_inf. With p_inf = 0, it is an ideal gas.
 ///
 /// With P = p + p_inf, all waves are those of an ideal gas with pressure P. Source: F. H. Harlow & A. A. Amsden, Fluid
-/// Dynamics, LANL report LA-4700 (1971).
+/// Dynamics, LANL report LA-4700 (1971). Numbers are double or Lanes.
 struct StiffenedGas {
   double gamma = 1.4;    ///< ratio of specific heats, greater than 1
   double pInfinity = 0;  ///< p_inf [Pa]
 
   /// Squared speed of sound, c² [m²/s²] = gamma (p + p_inf) / rho.
-  double soundSpeedSquared(double density, double pressure) const { return gamma * (pressure + pInfinity) / density; }
+  auto soundSpeedSquared(auto density, auto pressure) const { return gamma * (pressure + pInfinity) / density; }
   /// Internal energy per volume [J/m³] = (p + gamma p_inf) / (gamma - 1).
-  double energyOf(double, double pressure) const { return (pressure + gamma * pInfinity) * (1 / (gamma - 1)); }
+  auto energyOf(auto, auto pressure) const { return (pressure + gamma * pInfinity) * (1 / (gamma - 1)); }
   /// Pressure [Pa] at an internal energy per volume [J/m³].
-  double pressure(double, double internalEnergyPerVolume) const {
+  auto pressure(auto, auto internalEnergyPerVolume) const {
     return (gamma - 1) * internalEnergyPerVolume - gamma * pInfinity;
   }
   /// The last component of a state, which represents heat: the pressure.
-  double last(double density, double internalEnergyPerVolume) const {
-    return pressure(density, internalEnergyPerVolume);
-  }
-  static double pressureOf(double, double pressure) { return pressure; }
+  auto last(auto density, auto internalEnergyPerVolume) const { return pressure(density, internalEnergyPerVolume); }
+  static auto pressureOf(auto, auto pressure) { return pressure; }
   double shockSlope() const { return 0.5 * (gamma + 1); }
   /// p + p_inf [Pa]; it is greater than 0 in possible states.
-  double heat(double, double pressure) const { return pressure + pInfinity; }
+  auto heat(auto, auto pressure) const { return pressure + pInfinity; }
 };
 
 /// A gas: a stiffened gas, or a gas with its own law, that is, another equation of state.
@@ -156,35 +155,39 @@ Law lawOf(const Gas& gas) {
 template <class G>
 inline constexpr int kGases = 1;
 /// The law that applies in a state; for a single gas, the same in all states.
-template <int D, class G>
-const G& lawIn(const G& gas, const State<D>&) {
+template <int D, class G, class Number>
+const G& lawIn(const G& gas, const std::array<Number, D + 2>&) {
   return gas;  // NOLINT(bugprone-return-const-ref-from-parameter): callers keep the gas
 }
 
 /// The squared speed |v|² of a primitive state.
-template <int D, std::size_t N>
-double speedSquared(const std::array<double, N>& w) {
-  double sum = 0;
-  for (int k = 0; k < D; ++k) sum += w[kVelocity(k)] * w[kVelocity(k)];
+template <int D, class Number, std::size_t N>
+[[gnu::always_inline]] inline Number speedSquared(const std::array<Number, N>& w) {
+  Number sum = w[kVelocity(0)] * w[kVelocity(0)];
+  for (int k = 1; k < D; ++k) sum += w[kVelocity(k)] * w[kVelocity(k)];
   return sum;
 }
 
 /// Computes rho, rho v, E from rho, v and the last component; G is Gas, one of its laws, or the law of a mixture.
-template <int D, class G>
-State<D, kGases<G>> conserved(const G& gas, const State<D, kGases<G>>& w) {
-  State<D, kGases<G>> u = w;
+template <int D, class G, class Number, std::size_t N>
+[[gnu::always_inline]] inline std::array<Number, N> conserved(const G& gas, const std::array<Number, N>& w) {
+  std::array<Number, N> u;
+  u[kDensity] = w[kDensity];
   for (int k = 0; k < D; ++k) u[kVelocity(k)] = w[kDensity] * w[kVelocity(k)];
   u[kPressure<D>] = lawIn<D>(gas, w).energyOf(w[kDensity], w[kPressure<D>]) + 0.5 * w[kDensity] * speedSquared<D>(w);
+  for (std::size_t k = D + 2; k < N; ++k) u[k] = w[k];
   return u;
 }
 
 /// Computes rho, v and the last component from rho, rho v, E.
-template <int D, class G>
-State<D, kGases<G>> primitive(const G& gas, const State<D, kGases<G>>& u) {
-  State<D, kGases<G>> w = u;
-  const double inverse = 1 / u[kDensity];
+template <int D, class G, class Number, std::size_t N>
+[[gnu::always_inline]] inline std::array<Number, N> primitive(const G& gas, const std::array<Number, N>& u) {
+  std::array<Number, N> w;
+  w[kDensity] = u[kDensity];
+  const Number inverse = 1.0 / u[kDensity];
   for (int k = 0; k < D; ++k) w[kVelocity(k)] = u[kVelocity(k)] * inverse;
   w[kPressure<D>] = lawIn<D>(gas, u).last(u[kDensity], u[kPressure<D>] - 0.5 * u[kDensity] * speedSquared<D>(w));
+  for (std::size_t k = D + 2; k < N; ++k) w[k] = u[k];
   return w;
 }
 

@@ -28,9 +28,11 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
                                           : Index3{{64, 8, 8}};
 
+/// Largest number of cells along x of a column of work: long rows are read from memory faster than short ones.
+inline constexpr int kColumnWidth = 128;
 /// Number of cells in a plane of a column of work, including ghosts. With it, the planes of a column that are in use
-/// fit into the second-level cache.
-inline constexpr int kColumnCells = 2400;
+/// fit into the second-level cache or, where that is small, nearly.
+inline constexpr int kColumnCells = 3000;
 
 /// The extents of the blocks that tile a box. In two dimensions, blocks of narrow boxes are taller: with two layers of
 /// ghost cells around it, a block has as many cells as one of kBlock. So fewer cells are also ghosts of another block.
@@ -75,10 +77,10 @@ void forEachBlock(const Box& box, Visit&& visit) {
   forEachBlock<D>(box, blockOf<D>(box), std::forward<Visit>(visit));
 }
 
-/// The extents of columns along z that tile a box. Along x, a column is as wide as a block; along y, it is as wide as
-/// kColumnCells allows with `reach` ghost cells on each side.
+/// The extents of columns along z that tile a box. Along y, a column is as wide as kColumnCells allows with `reach`
+/// ghost cells on each side.
 inline Index3 columnOf(const Box& box, int reach) {
-  const int width = std::min(kBlock<3>[0], box.extent(0));
+  const int width = std::min(kColumnWidth, box.extent(0));
   return {{width, std::clamp(kColumnCells / (width + 2 * reach) - 2 * reach, 1, box.extent(1)), box.extent(2)}};
 }
 
@@ -186,16 +188,40 @@ void forEachStretch(const Box& box, const Box& held, Visit&& visit) {
   });
 }
 
-/// The State at position `i` of rows.
-template <int D, std::size_t N>
-std::array<double, N> load(const std::array<double*, N>& rows, std::ptrdiff_t i) {
-  std::array<double, N> state;
-  for (std::size_t k = 0; k < state.size(); ++k) state[k] = rows[k][i];
+/// The number at an address or, for Lanes, the numbers that begin there.
+template <class Number>
+[[gnu::always_inline]] inline Number numberAt(const double* from) {
+  if constexpr (std::is_same_v<Number, Lanes>)
+    return Lanes::at(from);
+  else
+    return *from;
+}
+[[gnu::always_inline]] inline void put(double number, double* to) { *to = number; }
+[[gnu::always_inline]] inline void put(const Lanes& numbers, double* to) { numbers.copyTo(to); }
+
+/// The State at position `i` of rows or, for Lanes, the states that begin there.
+template <int D, class Number = double, std::size_t N>
+[[gnu::always_inline]] inline std::array<Number, N> load(const std::array<double*, N>& rows, std::ptrdiff_t i) {
+  std::array<Number, N> state;
+  for (std::size_t k = 0; k < state.size(); ++k) state[k] = numberAt<Number>(rows[k] + i);
   return state;
 }
-template <int D, std::size_t N>
-void store(const std::array<double*, N>& rows, std::ptrdiff_t i, const std::array<double, N>& state) {
-  for (std::size_t k = 0; k < state.size(); ++k) rows[k][i] = state[k];
+template <int D, class Number = double, std::size_t N>
+[[gnu::always_inline]] inline void store(const std::array<double*, N>& rows, std::ptrdiff_t i,
+                                         const std::array<Number, N>& state) {
+  for (std::size_t k = 0; k < state.size(); ++k) put(state[k], rows[k] + i);
+}
+
+/// Calls `visit(number, i)` for positions `i` that together cover a row of `count` cells: Lanes::count cells at a time,
+/// with a number of type Lanes. If `count` is not a multiple of this, the last positions overlap those before, so
+/// `visit` must not write what it reads. Shorter rows are visited cell by cell, with a number of type double.
+template <class Visit>
+[[gnu::always_inline]] inline void forEachRegister(int count, Visit&& visit) {
+  constexpr int lanes = Lanes::count;
+  if (count < lanes)
+    for (std::ptrdiff_t i = 0; i < count; ++i) visit(0.0, i);
+  else
+    for (std::ptrdiff_t i = 0; i < count; i += lanes) visit(Lanes(0.0), std::min<std::ptrdiff_t>(i, count - lanes));
 }
 
 }  // namespace tushar::euler

@@ -84,7 +84,7 @@ TEST(ColumnStep, ColumnsTileAPatchWithinTheCache) {
        {Index3{{128, 128, 64}}, Index3{{16, 16, 16}}, Index3{{3, 4000, 2}}, Index3{{1, 1, 1}}}) {
     const Index3 column = columnOf({{}, extents}, 2);
     EXPECT_EQ(column[2], extents[2]);
-    EXPECT_LE((column[0] + 4) * (column[1] + 4), std::max(kColumnCells, 68 * 5));
+    EXPECT_LE((column[0] + 4) * (column[1] + 4), std::max(kColumnCells, (kColumnWidth + 4) * 5));
     for (int d = 0; d < 3; ++d) {
       EXPECT_GE(column[d], 1);
       EXPECT_LE(column[d], extents[d]);

@@ -2,7 +2,7 @@
 
 #include "components/euler/boundary.hpp"
 #include "components/euler/tasks/advance.hpp"
-#include "components/euler/tasks/row_kernels.hpp"
+#include "components/euler/tasks/lane_kernels.hpp"
 #include "core/base/limiters.hpp"
 
 namespace tushar::euler {
@@ -38,13 +38,15 @@ struct Work {
   void hold(const Box& box) {
     w.hold(box);
     flux.hold(box);
+    for (Rows<D, K>& values : across) values.hold(box);
     for (Rows<D, K>& values : lower) values.hold(box);
     for (Rows<D, K>& values : upper) values.hold(box);
   }
 
   Rows<D, K> w;                          ///< primitive values of cells
   std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, for each axis; empty without slopes
-  Rows<D, K> flux;                       ///< fluxes through lower faces, along one axis at a time
+  Rows<D, K> flux;                       ///< fluxes through lower faces along the first axis, or one axis at a time
+  std::vector<Rows<D, K>> across;        ///< fluxes through lower faces along the other axes; empty for several gases
   std::vector<double> least;             ///< smallest density and p + p_inf at faces, for one row
 
  private:
@@ -54,12 +56,19 @@ struct Work {
   };
   Work(Rows<D, K> values, std::size_t cells, bool hasSlopes, const Planes& planes)
       : w(std::move(values)), flux(Rows<D, K>::unfilled(cells, planes.faces)) {
+    for (int d = 1; d < D && K == 1; ++d)
+      across.push_back(Rows<D, K>::unfilled(cells, planes.faces == 0 || d == 1 ? planes.faces : 2));
     for (int d = 0; d < D && hasSlopes; ++d) {
       lower.push_back(Rows<D, K>::unfilled(cells, planes.faces));
       upper.push_back(Rows<D, K>::unfilled(cells, d == D - 1 ? planes.above : planes.faces));
     }
   }
 };
+
+/// Whether loops may also run over inconsistent states, because these take no longer than others; the results for them
+/// are arbitrary.
+template <class G>
+inline constexpr bool takesAnyStates = std::is_same_v<G, StiffenedGas>;
 
 /// Computes rho, v, p of the cells of a box that are on the grid or are periodic images of such cells.
 template <int D, class G>
@@ -76,6 +85,8 @@ void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, 
                                   rowOf(old.momentum, first, count)->data(), rowOf(old.totalEnergy, first, count),
                                   count, w.at(first));
     }
+    if constexpr (takesAnyStates<G>)
+      return recoverLanes<D>(gas, conservedRow<D>(old, first, count), count, w.at(first));
     recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
                   rowOf(old.totalEnergy, first, count), count, w.at(first));
   });
@@ -101,11 +112,6 @@ void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, W
   halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
 }
 
-/// Whether loops may also run over inconsistent states, because these take no longer than others; the results for them
-/// are arbitrary.
-template <class G>
-inline constexpr bool takesAnyStates = std::is_same_v<G, StiffenedGas>;
-
 /// Calls `visit(first, count)` for the cells of a box: in long stretches of memory if `Long`, otherwise row by row. For
 /// cells of stretches that are outside the box, loops compute values that nothing reads.
 template <int D, bool Long, class Visit>
@@ -119,6 +125,22 @@ void forEachPart(const Box& box, const Box& held, Visit&& visit) {
 /// intermediate values.
 template <int D, class G>
 void predict(const G&, const Level&, const Box&, double, Work<D, kGases<G>>&, Constant) {}
+template <int D, class Limited>
+void predict(const StiffenedGas& gas, const Level& level, const Box& box, double dt, Work<D>& work, Sloped<Limited>) {
+  std::array<double, D> ratio;
+  for (int d = 0; d < D; ++d) ratio[d] = 0.5 * dt / level.spacing(d);
+  forEachPart<D, true>(box, work.w.box(), [&](const Index<D>& first, int count) {
+    RowOfFaces<D> row;
+    row.w = work.w.at(first);
+    for (int d = 0; d < D; ++d) {
+      row.below[d] = work.w.at(first - Index<D>::unit(d));
+      row.above[d] = work.w.at(first + Index<D>::unit(d));
+      row.lower[d] = work.lower[d].at(first);
+      row.upper[d] = work.upper[d].at(first);
+    }
+    predictRow<D, Limited>(gas, row, ratio, count);
+  });
+}
 template <int D, class Limited, class G>
 void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D, kGases<G>>& work, Sloped<Limited>) {
   constexpr int gases = kGases<G>;
@@ -146,7 +168,11 @@ void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Row
   auto& above = constant ? work.w : work.lower[Axis];
   constexpr bool isLong = takesAnyStates<G> && std::is_same_v<Flux, Hllc>;
   forEachPart<D, isLong>(faces, flux.box(), [&](const Index<D>& first, int count) {
-    fluxRow<D, Flux, Axis>(gas, below.at(first - Index<D>::unit(Axis)), above.at(first), count, flux.at(first));
+    const auto left = below.at(first - Index<D>::unit(Axis)), right = above.at(first), through = flux.at(first);
+    if constexpr (isLong)
+      fluxLanes<D, Flux, Axis>(gas, left, right, count, through);
+    else
+      fluxRow<D, Flux, Axis>(gas, left, right, count, through);
   });
 }
 
@@ -201,15 +227,41 @@ void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>&
   });
 }
 
+/// Computes the fluxes along an axis through the faces of a block, and stores those that others need.
+template <int D, class Flux, class Shape, int Axis, class G>
+void crossFaces(const G& gas, const Box& block, Work<D, kGases<G>>& work, Rows<D, kGases<G>>& flux,
+                const RimFluxes<D>& rims) {
+  Box faces = block;
+  ++faces.upper[Axis];
+  computeFluxes<D, Flux, Shape, Axis>(gas, faces, work, flux);
+  keepAtRim<D>(rims, faces, Axis, flux);
+  rims.masses.keep(block, Axis, flux);
+}
+
+/// Computes the new state of a single gas in a block from the fluxes along all axes.
+template <int D>
+void addAllFluxes(const Level& level, const Box& block, double dt, const StateViews<D, const double>& old,
+                  Work<D>& work, const StateViews<D, double>& fresh) {
+  std::array<double, D> ratio;
+  for (int d = 0; d < D; ++d) ratio[d] = dt / level.spacing(d);
+  forEachRow<D>(block, [&](const Index<D>& first, int count) {
+    std::array<Pointers<D>, D> below, above;
+    for (int d = 0; d < D; ++d) {
+      Rows<D>& flux = d == 0 ? work.flux : work.across[d - 1];
+      below[d] = flux.at(first);
+      above[d] = flux.at(first + Index<D>::unit(d));
+    }
+    updateLanes<D>(conservedRow<D>(old, first, count), below, above, ratio, count,
+                   conservedRow<D>(fresh, first, count));
+  });
+}
+
+/// Adds to a block of several gases the fluxes along an axis.
 template <int D, class Flux, class Shape, int Axis, class G>
 void sweep(const G& gas, const Level& level, const Box& block, double dt,
            const ViewsOf<D, kGases<G>, const double>& old, Work<D, kGases<G>>& work,
            const ViewsOf<D, kGases<G>, double>& fresh, const RimFluxes<D>& rims) {
-  Box faces = block;
-  ++faces.upper[Axis];
-  computeFluxes<D, Flux, Shape, Axis>(gas, faces, work, work.flux);
-  keepAtRim<D>(rims, faces, Axis, work.flux);
-  rims.masses.keep(block, Axis, work.flux);
+  crossFaces<D, Flux, Shape, Axis>(gas, block, work, work.flux, rims);
   addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
 }
 
@@ -222,9 +274,16 @@ void advanceBlock(const G& gas, const Level& level, const GhostRules<D>& rules, 
   recover<D>(gas, level, work.w.box(), old, work.w);
   fillBeyondGrid<D>(level, rules, work.w);
   predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
-  sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh, rims);
-  if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh, rims);
-  if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh, rims);
+  if constexpr (kGases<G> == 1) {
+    crossFaces<D, Flux, Shape, 0>(gas, block, work, work.flux, rims);
+    if constexpr (D > 1) crossFaces<D, Flux, Shape, 1>(gas, block, work, work.across[0], rims);
+    if constexpr (D > 2) crossFaces<D, Flux, Shape, 2>(gas, block, work, work.across[1], rims);
+    addAllFluxes<D>(level, block, dt, old, work, fresh);
+  } else {
+    sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh, rims);
+    if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh, rims);
+    if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh, rims);
+  }
 }
 
 }  // namespace tushar::euler

@@ -21,14 +21,14 @@ class ColumnStep {
         fresh_(fresh),
         rims_(rims),
         work_(Work<3, kGases<G>>::ofColumns(cellsAcross(extents), Shape::reach)),
-        rising_(cellsAcross(extents), 2) {}
+        rising_(isSingle ? 0 : cellsAcross(extents), 2) {}
 
   /// Calls `finish(plane)` for each plane of cells after its new state has been computed.
   template <class Finish>
   void run(const Box& column, Finish&& finish) {
     const Box around = column.grown(Shape::reach, 3);
     work_.hold(around);
-    rising_.hold(around);
+    if (!isSingle) rising_.hold(around);
     const int first = column.lower[z], end = column.upper[z];
     take(planesOf(around, first - Shape::reach, first + Shape::reach));
     for (int plane = first - 1; plane <= end; ++plane) {
@@ -37,16 +37,20 @@ class ColumnStep {
       const bool isInside = plane >= first && plane < end;
       predict<3>(gas_, level_, isInside ? cells.grown(1, 2) : cells, dt_, work_, Shape{});
       if (plane >= first) rise(cells);
-      if (isInside) cross(cells);
-      if (plane <= first) continue;
-      const Box below = planesOf(column, plane - 1, plane);
-      add(below);
-      finish(below);
+      // The fluxes along x and y are stored for one plane, so for a single gas that below is completed first.
+      if (isInside && !isSingle) sweepPlane(cells);
+      if (plane > first) {
+        const Box below = planesOf(column, plane - 1, plane);
+        add(below);
+        finish(below);
+      }
+      if (isInside && isSingle) crossPlane(cells);
     }
   }
 
  private:
   static constexpr int z = 2;
+  static constexpr bool isSingle = kGases<G> == 1;
 
   static std::size_t cellsAcross(const Index3& extents) {
     return static_cast<std::size_t>(extents[0] + 2 * Shape::reach) * (extents[1] + 2 * Shape::reach);
@@ -63,18 +67,33 @@ class ColumnStep {
   }
   /// Computes the fluxes along z through the lower faces of a plane.
   void rise(const Box& plane) {
-    computeFluxes<3, Flux, Shape, z>(gas_, plane, work_, rising_);
-    keepAtRim<3>(rims_, plane, z, rising_);
+    computeFluxes<3, Flux, Shape, z>(gas_, plane, work_, rising());
+    keepAtRim<3>(rims_, plane, z, rising());
   }
-  /// Computes the change of a plane due to the fluxes along x and y.
-  void cross(const Box& plane) {
+  /// Computes the fluxes along x and y through the faces of a plane.
+  void crossPlane(const Box& plane) {
+    crossFaces<3, Flux, Shape, 0>(gas_, plane, work_, work_.flux, rims_);
+    if constexpr (isSingle) crossFaces<3, Flux, Shape, 1>(gas_, plane, work_, work_.across[0], rims_);
+  }
+  /// Adds the change of a plane of several gases due to the fluxes along x and y.
+  void sweepPlane(const Box& plane) {
     sweep<3, Flux, Shape, 0>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
     sweep<3, Flux, Shape, 1>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
   }
-  /// Adds the change of a plane due to the fluxes along z.
+  /// Adds the change of a plane due to the fluxes along z; for a single gas, due to all fluxes.
   void add(const Box& plane) {
-    rims_.masses.keep(plane, z, rising_);
-    addFluxes<3, z>(dt_ / level_.spacing(z), plane, old_, rising_, fresh_);
+    rims_.masses.keep(plane, z, rising());
+    if constexpr (isSingle)
+      addAllFluxes<3>(level_, plane, dt_, old_, work_, fresh_);
+    else
+      addFluxes<3, z>(dt_ / level_.spacing(z), plane, old_, rising_, fresh_);
+  }
+  /// The fluxes along z through the faces of two planes.
+  Rows<3, kGases<G>>& rising() {
+    if constexpr (isSingle)
+      return work_.across[1];
+    else
+      return rising_;
   }
 
   const G& gas_;
@@ -85,7 +104,7 @@ class ColumnStep {
   const ViewsOf<3, kGases<G>, double>& fresh_;
   const RimFluxes<3>& rims_;
   Work<3, kGases<G>> work_;
-  Rows<3, kGases<G>> rising_;  ///< fluxes along z through the faces of two planes
+  Rows<3, kGases<G>> rising_;  ///< fluxes along z of several gases
 };
 
 }  // namespace tushar::euler

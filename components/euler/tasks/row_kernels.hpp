@@ -59,16 +59,18 @@ void reconstructRow(const double* below, const double* w, const double* above, i
                     double* upper) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double half = 0.5 * Limited::slope(w[i] - below[i], above[i] - w[i]);
+    const double half = Limited::half(w[i] - below[i], above[i] - w[i]);
     lower[i] = w[i] - half;
     upper[i] = w[i] + half;
   }
 }
 
 /// Computes the flux F along an axis from primitive values.
-template <int D, int Axis, class G>
-State<D, kGases<G>> fluxOf(const G& gas, const State<D, kGases<G>>& w) {
-  FaceState<D, kGases<G>> face{w, conserved<D>(gas, w)[kPressure<D>]};
+template <int D, int Axis, class G, class Number, std::size_t N>
+[[gnu::always_inline]] inline std::array<Number, N> fluxOf(const G& gas, const std::array<Number, N>& w) {
+  FaceState<D, kGases<G>, Number> face;
+  for (std::size_t k = 0; k < N; ++k) face.w[k] = w[k];
+  face.energy = conserved<D>(gas, w)[kPressure<D>];
   face.w[kPressure<D>] = lawIn<D>(gas, w).pressureOf(w[kDensity], w[kPressure<D>]);
   return fluxOf<D, Axis>(face);
 }
