@@ -69,6 +69,24 @@ class BodiesAtNodes {
     });
     return whole > 0 ? Vec<D>(sum / whole) : sum;
   }
+  /// The component of velocityAt along the axis of the face before and after the step [m/s].
+  struct Speeds {
+    double before = 0, after = 0;
+  };
+  Speeds speedsAt(const Index<D>& cell, int axis) const {
+    if (records_->size() > 1)
+      return {velocityAt(cell, axis, mpm::solid::lane::before)[axis],
+              velocityAt(cell, axis, mpm::solid::lane::velocity)[axis]};
+    double mass = 0;
+    Speeds sum;
+    forEachAt(cell, axis, 0, [&](const Index<D>&, const mpm::solid::NodeRecord& record, double m) {
+      mass += m;
+      sum.before += m * numberIn(record, mpm::solid::lane::before + axis);
+      sum.after += m * numberIn(record, mpm::solid::lane::velocity + axis);
+    });
+    if (mass > 0) sum = {sum.before / mass, sum.after / mass};
+    return sum;
+  }
   /// Calls `visit(body, node, share)` for each part of a force at the face; the shares add up to 1.
   template <class Visit>
   void distribute(const Index<D>& cell, int axis, Visit&& visit) const {
@@ -90,12 +108,17 @@ class BodiesAtNodes {
   }
 
  private:
+  static double numberIn(const mpm::solid::NodeRecord& record, int lane) {
+    return reinterpret_cast<const double*>(&record)[lane];
+  }
   /// Calls `visit(node, record, mass)` for the nodes of a body that have mass.
   template <class Visit>
   void forEachAt(const Index<D>& cell, int axis, std::size_t body, Visit&& visit) const {
     const auto& records = (*records_)[body].records;
-    forEach<D>(nodesAt(cell, axis), [&](const Index<D>& node) {
-      if (const double m = records[node][mpm::solid::lane::mass]; m > 0) visit(node, records[node], m);
+    forEachRow<D>(nodesAt(cell, axis), [&](Index<D> node, int count) {
+      const mpm::solid::NodeRecord* record = &records[node];
+      for (int i = 0; i < count; ++i, ++node[0], ++record)
+        if (const double m = numberIn(*record, mpm::solid::lane::mass); m > 0) visit(node, *record, m);
     });
   }
   /// Mass [kg] and momentum of a body at the nodes of a face.
@@ -109,7 +132,7 @@ class BodiesAtNodes {
     Content sum;
     forEachAt(cell, axis, body, [&](const Index<D>&, const mpm::solid::NodeRecord& record, double m) {
       sum.mass += m;
-      sum.momentum += m * mpm::solid::lanes<D>(record, lane);
+      for (int d = 0; d < D; ++d) sum.momentum[d] += m * numberIn(record, lane + d);
     });
     return sum;
   }

@@ -72,6 +72,21 @@ class FreeSpace {
     if (isEmpty(below) || isEmpty(above)) return 0;
     return openShare(cells_.coverage[above][axis], roomOf(cells_.free[below]), roomOf(cells_.free[above]), thin_walls_);
   }
+  /// Whether bodies leave the lower face of a cell and the cells on both sides of it completely free, so that the face
+  /// has no wall. Faces on sides of the grid, or beyond, are never reported as open.
+  bool isOpen(const Index<D>& cell, int axis) const {
+    const Index<D> below = cell - Index<D>::unit(axis);
+    if (!level_->isPeriodic(axis) &&
+        (cell[axis] <= level_->cells().lower[axis] || cell[axis] >= level_->cells().upper[axis]))
+      return false;
+    return isWhole(below) && isWhole(cell) && !(1 - cells_.coverage[cell][axis] < 1);
+  }
+  /// Whether all faces of a cell are open.
+  bool isOpenAround(const Index<D>& cell) const {
+    bool all = true;
+    for (int d = 0; d < D; ++d) all = all && isOpen(cell, d) && isOpen(cell + Index<D>::unit(d), d);
+    return all;
+  }
   OpenFaces faces(const Index<D>& cell, int axis) const {
     if (isEmpty(cell)) return {};
     OpenFaces both{{aperture(cell, axis, 0), aperture(cell, axis, 1)}};
@@ -101,6 +116,8 @@ class FreeSpace {
   }
 
  private:
+  bool isWhole(const Index<D>& cell) const { return !(cells_.free[cell] < 1) && cells_.held.density[cell] > 0; }
+
   const Level* level_;
   bool thin_walls_;
   GasInCells<D> cells_;

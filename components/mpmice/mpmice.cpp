@@ -139,8 +139,9 @@ void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) co
   tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresOld(p::size<D>),
                     requiresNew(p::deformationMeasure), when(burns(), requiresNew(p::unburned)),
                     computes(p::boxEdges<D>));
-  tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
-                        withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)), withoutMaterial(all<SweptFaces<D>>()));
+  tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, withoutMaterial(all<GasNearby>()),
+                        all<MovedBoxes<D>>(), withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
+                        withoutMaterial(all<SweptFaces<D>>()));
 }
 
 template <int D>

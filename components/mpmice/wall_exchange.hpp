@@ -60,23 +60,31 @@ class WallExchange {
     return isUpperSide ? space_.aperture(cell - Index<D>::unit(axis), axis, 1) : space_.aperture(cell, axis, 0);
   }
 
+  /// Converts the volume fractions of several gases into volumes, which together fill the free volume of the cell after
+  /// the step.
+  void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
+    for (std::size_t k = 0; k < held.shares.size(); ++k)
+      held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
+  }
+
   /// Adds to the content of a cell the effect of the walls at its faces, and the gas that flows in behind moving walls.
   /// Returns what the gas gives to the walls. Adds the mass of that gas to the masses through faces.
   Given<D> addTo(const Index<D>& cell, const euler::MixtureViews<D, double>& held,
                  const euler::FaceMasses<D>& masses) const {
     Given<D> given;
-    fillRoom(cell, held);
     if (step_.walls.friction && !(*step_.walls.friction)[cell].isZero(0)) drag(cell, held, given);
     for (int d = 0; d < D; ++d) {
+      const Index<D> above = cell + Index<D>::unit(d);
+      if (space_.isOpen(cell, d) && space_.isOpen(above, d) && step_.swept[cell][d] == 0 && step_.swept[above][d] == 0)
+        continue;
       const OpenFaces faces = space_.faces(cell, d);
       for (int side = 0; side < 2; ++side) {
-        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
+        const Index<D> face = side == 0 ? cell : above;
         const double wall = faces.wall(side);
         const bool flows = !space_.isAtSide(cell, d, side) && mayFlow(face, d);
         if (!(wall > 0) && !flows) continue;
-        const Vec<D> after = nodes_.velocityAt(face, d, mpm::solid::lane::velocity);
-        if (wall > 0) push(cell, d, side, wall, after, held, given);
-        if (flows) flow(cell, d, side, after[d], held, masses);
+        if (wall > 0) push(cell, d, side, wall, held, given);
+        if (flows) flow(cell, d, side, held, masses);
       }
     }
     return given;
@@ -94,23 +102,16 @@ class WallExchange {
   }
 
  private:
-  /// Converts the volume fractions of several gases into volumes, which together fill the free volume of the cell after
-  /// the step.
-  void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
-    for (std::size_t k = 0; k < held.shares.size(); ++k)
-      held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
-  }
-
   /// Adds the momentum of a wall's pressure, and its work at the mean of the wall's velocities before and after the
   /// step.
-  void push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
-            const euler::StateViews<D, double>& held, Given<D>& given) const {
+  void push(const Index<D>& cell, int axis, int side, double wall, const euler::StateViews<D, double>& held,
+            Given<D>& given) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
-    const Vec<D> before = nodes_.velocityAt(face, axis, mpm::solid::lane::before);
+    const auto [before, after] = nodes_.speedsAt(face, axis);
     const double pressure = side == 0 ? step_.walls.below[cell][axis] : step_.walls.above[cell][axis];
     const double impulse = (side == 0 ? wall : -wall) * pressure * dt_ * level_.inverseSpacing(axis);
     held.momentum[cell][axis] += impulse;
-    const double work = impulse * (0.5 * (before[axis] + after[axis]));
+    const double work = impulse * (0.5 * (before + after));
     held.totalEnergy[cell] += work;
     given.impulse[axis] -= impulse;
     given.work -= work;
@@ -145,19 +146,20 @@ class WallExchange {
   /// the covered fraction of the face would sweep, minus the volume that bodies swept; where bodies overlap, each has
   /// swept what it covers. Walls move with the bodies that move through the face; if none does, with the velocity of
   /// the nodes.
-  double followingUp(const Index<D>& above, int axis, double wallVelocity) const {
+  double followingUp(const Index<D>& above, int axis) const {
     const double covered = std::max(1 - space_.aperture(above, axis, 0), nodes_.coverageAt(above, axis));
     const double by = step_.sweptBy[above][axis];
-    const double shift = by == c::notSwept ? wallVelocity * dt_ * level_.inverseSpacing(axis) : by;
+    const double shift =
+        by == c::notSwept ? nodes_.speedsAt(above, axis).after * dt_ * level_.inverseSpacing(axis) : by;
     return covered * shift - step_.swept[above][axis];
   }
 
   /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and
   /// energy.
-  void flow(const Index<D>& cell, int axis, int side, double wallVelocity, const euler::MixtureViews<D, double>& held,
+  void flow(const Index<D>& cell, int axis, int side, const euler::MixtureViews<D, double>& held,
             const euler::FaceMasses<D>& masses) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
-    const double up = followingUp(above, axis, wallVelocity);
+    const double up = followingUp(above, axis);
     if (up == 0) return;
     const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
     if (isClosedPore(receiver)) return;
@@ -234,7 +236,7 @@ class WallExchange {
       for (int side = 0; side < 2; ++side) {
         const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
         if (space_.isAtSide(cell, d, side) || !mayFlow(face, d)) continue;
-        const double up = followingUp(face, d, nodes_.velocityAt(face, d, mpm::solid::lane::velocity)[d]);
+        const double up = followingUp(face, d);
         if (up != 0) visit(d, side == 0 ? cell - Index<D>::unit(d) : face, side == 0 ? up : -up);
       }
   }

@@ -147,4 +147,51 @@ TYPED_TEST(FreeSpaceAlongAxes, KnowsTheCellsNearBodies) {
   EXPECT_TRUE(NearBodies<D>(cube<D>(2), 1, free.seen(), mass.seen()).hasAny());
 }
 
+TYPED_TEST(FreeSpaceAlongAxes, KnowsTheCellsInBodiesThatNoGasCanReach) {
+  constexpr int D = TypeParam::value;
+  const Box cells = cube<D>(13), body = cells.grown(-2, D), inner = body.grown(-2, D);
+  Field<double> free(cells, 1), mass(cells, 1);
+  forEach<D>(body, [&](const Index<D>& cell) { free.cells()[cell] = mass.cells()[cell] = 0; });
+  const NearBodies<D> near(cells, 2, free.seen(), mass.seen());
+  Field<int> visits(cells, 0);
+  near.forEachActingIn(cells, [&](const Index<D>& cell) { ++visits.cells()[cell]; });
+  forEach<D>(cells, [&](const Index<D>& cell) {
+    EXPECT_EQ(visits.seen()[cell], inner.contains(cell) ? 0 : 1);
+    EXPECT_EQ(near.acts(cell), !inner.contains(cell));
+    EXPECT_TRUE(near(cell));
+  });
+}
+
+TYPED_TEST(FreeSpaceAlongAxes, DividesRowsIntoNearAndFarRuns) {
+  constexpr int D = TypeParam::value;
+  Field<double> free(cube<D>(9), 1);
+  const Field<double> mass(cube<D>(9), 1);
+  free.cells()[Index<D>::filled(4)] = 0.5;
+  const NearBodies<D> near(cube<D>(9), 1, free.seen(), mass.seen());
+  Field<int> visits(cube<D>(9), 0);
+  near.forEachFarRunIn(cube<D>(9), [&](Index<D> first, int count) {
+    for (int i = 0; i < count; ++i, ++first[0]) ++visits.cells()[first];
+  });
+  forEach<D>(cube<D>(9), [&](const Index<D>& cell) { EXPECT_EQ(visits.seen()[cell], near(cell) ? 0 : 1); });
+}
+
+TYPED_TEST(FreeSpaceAlongAxes, HasNoWallsAtOpenFaces) {
+  constexpr int D = TypeParam::value;
+  const Level level(euler::closedBox(D, 7));
+  GasFields<D> fields(level.cells());
+  const Index<D> body = Index<D>::filled(3);
+  fields.free.cells()[body] = 0.7;
+  fields.coverage.cells()[body][0] = 0.2;
+  const FreeSpace<D> space(level, {}, fields.gas());
+  forEach<D>(level.cells(), [&](const Index<D>& cell) {
+    for (int axis = 0; axis < D; ++axis) {
+      const bool touches = cell == body || cell - Index<D>::unit(axis) == body;
+      EXPECT_EQ(space.isOpen(cell, axis), cell[axis] > 0 && !touches);
+      const OpenFaces faces = space.faces(cell, axis);
+      EXPECT_TRUE(!space.isOpen(cell, axis) || faces.wall(0) == 0);
+      EXPECT_TRUE(!space.isOpenAround(cell) || (faces.wall(0) == 0 && faces.wall(1) == 0));
+    }
+  });
+}
+
 }  // namespace tushar::mpmice

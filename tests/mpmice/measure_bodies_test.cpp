@@ -161,4 +161,38 @@ TYPED_TEST(BodiesAlongAxes, SweepTheirCrossSectionTimesTheirWay) {
   });
 }
 
+TYPED_TEST(BodiesAlongAxes, SweepFacesOnlyNearGas) {
+  constexpr int D = TypeParam::value;
+  const Grid grid(euler::closedBox(D, 16));
+  const Box& cells = grid.level().cells();
+  Field<double> free(cells, 1), mass(cells, 1);
+  const Box body = cells.grown(-1, D), inner = body.grown(-sweptReach, D);
+  forEach<D>(body, [&](const Index<D>& cell) { free.cells()[cell] = mass.cells()[cell] = 0; });
+  // A patch that covers the grid knows no cells beyond its sides; these count as cells with gas.
+  const CellMarks<D> needed = GasNearby{{free.seen(), mass.seen()}}.template mark<D>(grid.patches().front());
+  const CellMarks<D> around = markAround<D>(grid.patches().front(), needed);
+  forEach<D>(cells, [&](const Index<D>& cell) {
+    EXPECT_EQ(needed(cell), !inner.contains(cell));
+    EXPECT_EQ(around(cell), !inner.grown(-1, D).contains(cell));
+  });
+  Field<Vec<D>> swept(cells, Vec<D>::Zero()), by(cells, Vec<D>::Zero());
+  const SweptFaces<D> faces{swept.cells(), by.cells()};
+  Sweeps<D> sweeps(faces);
+  const Index<D> last = Index<D>::filled(inner.upper[0] - 1);
+  Index<D> outside = last;
+  ++outside[0];
+  for (const Index<D>& face : {last, outside}) {  // a box of a cell, halfway through the face
+    ParticleBox<D> before{Vec<D>::Constant(0.5), Vec<D>::Ones()};
+    before.middle[0] = 0;
+    ParticleBox<D> after = before;
+    after.middle[0] += 0.25;
+    sweeps.add(face, before, after);
+  }
+  sweeps.settle(needed);
+  EXPECT_EQ(swept.seen()[last], Vec<D>(Vec<D>::Zero()));
+  EXPECT_EQ(by.seen()[last][0], c::notSwept);
+  EXPECT_EQ(swept.seen()[outside][0], 0.25);
+  EXPECT_EQ(by.seen()[outside][0], 0.25);
+}
+
 }  // namespace tushar::mpmice

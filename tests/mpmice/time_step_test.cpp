@@ -99,4 +99,22 @@ TYPED_TEST(FlatAlongAxes, AreTheCellsOfBodiesAndTheirNeighboursAlsoBeyondTheGrid
   });
 }
 
+TYPED_TEST(FlatAlongAxes, StepsFollowFromTheFastestCellWithGas) {
+  constexpr int D = TypeParam::value;
+  const Grid grid(euler::closedBox(D, D == 1 ? 600 : D == 2 ? 21 : 9));
+  GasFields<D> fields(grid.level().cells());
+  for (std::size_t i = 0; i < fields.density.values.size(); ++i) {
+    const double seed = static_cast<double>(i);
+    fields.free.values[i] = i % 3 == 0 ? 0 : i % 3 == 1 ? 1 : 0.1 + 0.9 * wild(seed);
+    fields.density.values[i] = i % 7 == 0 ? 0 : fields.free.values[i] * (0.5 + wild(seed + 0.1));
+    fields.energy.values[i] = 3 + wild(seed + 0.2);
+    for (int d = 0; d < D; ++d) fields.momentum.values[i][d] = fields.density.values[i] * (wild(seed + d) - 0.5);
+  }
+  Settings settings;
+  settings.gas.cfl = 0.3;
+  Minimum dt;
+  computeStableTimeStep<D>(grid.patches().front(), settings, fields.gas(), dt);
+  EXPECT_EQ(dt.value, 0.3 / fastestRate<D>(grid.patches().front(), settings.gas.gas, fields.gas()));
+}
+
 }  // namespace tushar::mpmice

@@ -53,7 +53,7 @@ void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& ce
                      euler::Work<D, K>& work) {
   const Box known = level.clipCells(box.grown(1, D));
   const auto hasBody = [&](const Index<D>& cell) { return known.contains(cell) && cells.hasBody(cell); };
-  near.forEachIn(box, [&](const Index<D>& cell) {
+  near.forEachActingIn(box, [&](const Index<D>& cell) {
     Index<D> source = cell;
     for (int d = 0; d < D; ++d) source[d] = std::clamp(cell[d], known.lower[d], known.upper[d] - 1);
     bool isPlain = !hasBody(source);
@@ -75,8 +75,9 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   const bool periodic = level.isPeriodic(axis);
   near.forEachIn(faces, [&](const Index<D>& cell) {
     const bool isUpperSide = !periodic && cell[axis] == level.cells().upper[axis];
-    const double open =
-        isUpperSide ? space.aperture(cell - Index<D>::unit(axis), axis, 1) : space.aperture(cell, axis, 0);
+    const double open = isUpperSide       ? space.aperture(cell - Index<D>::unit(axis), axis, 1)
+                        : near.acts(cell) ? space.aperture(cell, axis, 0)
+                                          : 0.0;
     if (open == 1) return;
     const typename euler::Rows<D, K>::Pointers f = flux.at(cell);
     for (double* number : f) *number = open > 0 ? open * *number : 0.0;
@@ -88,7 +89,7 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
 template <int D, int K>
 void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
                   const euler::Rows<D, K>& flux, const CellView<Vec<D>>& flow) {
-  near.forEachIn(block, [&](const Index<D>& cell) {
+  near.forEachActingIn(block, [&](const Index<D>& cell) {
     if (exchange.space().isAtSide(cell, axis, 0)) return;
     flow[cell][axis] = ratio * flux.number(cell, euler::kDensity) - exchange.carriedThrough(cell, axis);
   });
@@ -114,7 +115,9 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
 template <int D>
 void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
               const UnsharedGas<D>& fresh, const OfferedExchange<D>& offered, Sum& power) {
-  near.forEachIn(block, [&](const Index<D>& cell) {
+  if (!fresh.held.shares.empty())
+    near.forEachIn(block, [&](const Index<D>& cell) { exchange.fillRoom(cell, fresh.held); });
+  near.forEachActingIn(block, [&](const Index<D>& cell) {
     const Given<D> given = exchange.addTo(cell, fresh.held, fresh.rims.masses);
     if (given.work != 0) power.add(given.work * perStep);
     if (offered.impulse) (*offered.impulse)[cell] = given.impulse;
@@ -134,14 +137,14 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
   });
 }
 
-/// Whether the gas of a cell has a possible state. For several gases, refuseFarGas checks it or, if they have laws of
-/// their own, closeGases at the end of the step.
+/// Whether the gas of a row of cells has a possible state. For several gases, refuseFarGas checks it or, if they have
+/// laws of their own, closeGases at the end of the step.
 template <int D, class G>
-bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, double>& fresh) {
+bool canBeIn(const G& gas, const Index<D>& first, int count, const euler::StateViews<D, double>& fresh) {
   if constexpr (euler::kGases < G >> 1)
     return false;
   else
-    return euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1);
+    return euler::canBe<D>(gas, &fresh.density[first], fresh.momentum[first].data(), &fresh.totalEnergy[first], count);
 }
 
 /// Performs a step for a block with bodies in or around it: a step of `euler` through open faces, and the effect of
@@ -167,7 +170,8 @@ bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells
   if constexpr (D > 2) sweep.template operator()<2>();
   addWalls<D>(exchange, near, block, perStep, fresh, offered, power);
   bool fine = true;
-  forEach<D>(block, [&](const Index<D>& cell) { fine &= near(cell) || canBeIn<D>(gas, cell, fresh.held); });
+  near.forEachFarRunIn(block,
+                       [&](const Index<D>& first, int count) { fine &= canBeIn<D>(gas, first, count, fresh.held); });
   return fine;
 }
 
@@ -178,7 +182,10 @@ bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D
                  const OfferedExchange<D>& offered, Sum& power) {
   constexpr int K = euler::kGases<G>;
   const Level& level = patch.level();
-  euler::Work<D, K> work(patch.cells(), Shape::reach);
+  // Kept for the next patch of the thread, as in `euler`.
+  thread_local auto work = euler::Work<D, K>::unfilled(patch.cells(), Shape::reach);
+  if (work.w.room() < euler::Work<D, K>::roomOf(patch.cells(), Shape::reach))
+    work = euler::Work<D, K>::unfilled(patch.cells(), Shape::reach);
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     if (near.anyIn(block.grown(1, D))) {

@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/material.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/near_bodies.hpp"
 #include "components/mpmice/particle_box.hpp"
 #include "core/data/vanished.hpp"
 
@@ -55,6 +56,14 @@ auto alongAxes(const Box& reach, Make&& make) {
   return values;
 }
 
+/// The cells of a view in a box of cells around the cell `origin`; `reach` is relative to this cell.
+template <int D, class T>
+Box cellsIn(const CellView<T>& view, const Index<D>& origin, const Box& reach) {
+  Index3 shift{};
+  for (int d = 0; d < D; ++d) shift[d] = origin[d];
+  return reach.shifted(shift).intersect(view.box());
+}
+
 /// The volume fractions and faces that bodies leave free on a patch, from which the boxes of particles are subtracted.
 template <int D>
 struct FreeShares {
@@ -72,26 +81,51 @@ struct FreeShares {
   /// Subtracts the contribution of a particle's box, whose coordinates are relative to the cell `origin`.
   void take(const Index<D>& origin, const ParticleBox<D>& box) const {
     if (!(box.edges.minCoeff() > 0)) return;  // it has burned
-    const Box reach = box.reach();
-    const auto inside = alongAxes<D>(reach, [&](int axis, int k) { return box.lengthIn(axis, k); });
-    const auto hat = alongAxes<D>(reach, [&](int axis, int k) { return box.hatAt(axis, k); });
-    forEach<D>(reach, [&](const Index<D>& k) {
-      const Index<D> cell = origin + k;
-      if (!volume.box().contains(cell)) return;
-      double filled = 1;
-      for (int d = 0; d < D; ++d) filled *= inside[d][k[d] - reach.lower[d]];
-      volume[cell] -= filled;
-      for (int a = 0; a < D; ++a) {
-        double covered = hat[a][k[a] - reach.lower[a]];
-        for (int d = 0; d < D; ++d)
-          if (d != a) covered *= inside[d][k[d] - reach.lower[d]];
-        coverage[cell][a] += covered;
-      }
+    Along inside, hat;                        // lengths in cells, and weights of their lower faces
+    Index<D> lowest = origin;
+    Box cells{{}, Index3::filled(1)};
+    for (int d = 0; d < D; ++d) {
+      const int low = static_cast<int>(std::floor(box.middle[d] - box.edges[d]));
+      for (int k = 0; k < mostCells; ++k) inside[d][k] = box.lengthIn(d, low + k);
+      for (int k = 0; k < mostCells; ++k) hat[d][k] = box.hatAt(d, low + k);
+      cells.lower[d] = lowest[d] += low;
+      cells.upper[d] = origin[d] + static_cast<int>(std::floor(box.middle[d] + box.edges[d])) + 1;
+    }
+    forEachRow<D>(cells.intersect(volume.box()), [&](const Index<D>& first, int count) {
+      takeRow(inside, hat, first - lowest, count, &volume[first], &coverage[first]);
     });
   }
   /// Sets the free volume to 0 where it is negative because bodies overlap.
   void settle() const {
     forEach<D>(volume.box(), [&](const Index<D>& cell) { volume[cell] = std::max(0.0, volume[cell]); });
+  }
+
+ private:
+  /// The largest number of cells along an axis that a box may reach.
+  static constexpr int mostCells = 4;
+  static_assert(2 * longestEdge <= mostCells - 1);
+  /// A number for each of these cells along each axis.
+  using Along = std::array<std::array<double, mostCells>, D>;
+
+  /// Subtracts the contribution of a box to a row of cells; `k` is the place of the first one in the lists.
+  static void takeRow(const Along& inside, const Along& hat, const Index<D>& k, int count, double* room,
+                      Vec<D>* faces) {
+    for (int i = 0; i < count; ++i) {
+      const double along = inside[0][k[0] + i];
+      double filled = along, covered = hat[0][k[0] + i];
+      for (int d = 1; d < D; ++d) {
+        filled *= inside[d][k[d]];
+        covered *= inside[d][k[d]];
+      }
+      room[i] -= filled;
+      faces[i][0] += covered;
+      for (int a = 1; a < D; ++a) {
+        covered = hat[a][k[a]] * along;
+        for (int d = 1; d < D; ++d)
+          if (d != a) covered *= inside[d][k[d]];
+        faces[i][a] += covered;
+      }
+    }
   }
 };
 
@@ -148,51 +182,68 @@ template <int D>
 class Sweeps {
  public:
   explicit Sweeps(const SweptFaces<D>& faces)
-      : faces_(faces), weights_(static_cast<std::size_t>(faces.volume.box().size()), Vec<D>::Zero()) {
+      : faces_(faces), weights_(static_cast<std::size_t>(faces.volume.box().size())), touched_(faces.volume.box()) {
     faces_.volume.fill(Vec<D>::Zero());
-    faces_.shift.fill(Vec<D>::Zero());
+    faces_.shift.fill(Vec<D>::Constant(c::notSwept));
   }
   /// Adds the volume, in cells, that a box sweeps upwards through the lower faces of the surrounding cells while it
   /// moves from `before` to `after`. It is the mean of two sequences of moves along one axis each: with the axes in
   /// ascending and in descending order.
   void add(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after);
-  /// Divides the sums of displacements by those of their weights.
-  void settle() const {
-    forEach<D>(faces_.volume.box(), [&](const Index<D>& cell) {
-      const Vec<D>& weight = weights_[numberOf(cell)];
-      for (int a = 0; a < D; ++a)
-        faces_.shift[cell][a] = weight[a] > 0 ? faces_.shift[cell][a] / weight[a] : c::notSwept;
+  /// Divides the sums of displacements by those of their weights. Faces for which `isNeeded(cell)` is false count as
+  /// not swept.
+  template <class IsNeeded>
+  void settle(IsNeeded&& isNeeded) const {
+    touched_.forEachIn(touched_.box(), [&](const Index<D>& cell) {
+      Vec<D>&volume = faces_.volume[cell], &shift = faces_.shift[cell];
+      const Vec<D>& weight = weights_[offsetIn<D>(touched_.box(), cell)];
+      const bool isKept = isNeeded(cell);
+      if (!isKept) volume = Vec<D>::Zero();
+      for (int a = 0; a < D; ++a) shift[a] = isKept && weight[a] > 0 ? shift[a] / weight[a] : c::notSwept;
     });
+  }
+  void settle() const {
+    settle([](const Index<D>&) { return true; });
   }
 
  private:
-  std::size_t numberOf(const Index<D>& cell) const {
-    Index3 at = faces_.volume.box().lower;
-    for (int d = 0; d < D; ++d) at[d] = cell[d];
-    return faces_.volume.box().offset(at);
+  /// The weights of the displacements through the faces of a cell. At the first call, all sums of the cell become 0.
+  Vec<D>& weightsOf(const Index<D>& cell) {
+    Vec<D>& weights = weights_[offsetIn<D>(touched_.box(), cell)];
+    if (std::uint8_t& mark = *touched_.row(cell); !mark) {
+      mark = 1;
+      weights = faces_.shift[cell] = Vec<D>::Zero();
+    }
+    return weights;
   }
 
   const SweptFaces<D>& faces_;
-  std::vector<Vec<D>> weights_;
+  std::vector<Vec<D>, euler::Unfilled<Vec<D>>> weights_;
+  CellMarks<D> touched_;  ///< the cells with sums
 };
 
 template <int D>
 void Sweeps<D>::add(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after) {
+  if (before.middle == after.middle) return;
   const Box from = before.reach(), to = after.reach();
   Box reach = from;
   for (int d = 0; d < D; ++d) {
     reach.lower[d] = std::min(from.lower[d], to.lower[d]);
     reach.upper[d] = std::max(from.upper[d], to.upper[d]);
   }
-  const auto old = alongAxes<D>(reach, [&](int axis, int k) { return before.lengthIn(axis, k); });
-  const auto fresh = alongAxes<D>(reach, [&](int axis, int k) { return after.lengthIn(axis, k); });
   const auto up =
       alongAxes<D>(reach, [&](int axis, int k) { return after.lengthAbove(axis, k) - before.lengthAbove(axis, k); });
-  forEach<D>(reach, [&](const Index<D>& k) {
-    const Index<D> cell = origin + k;
-    if (!faces_.volume.box().contains(cell)) return;
-    Vec<D>& weights = weights_[numberOf(cell)];
+  bool passes = false;
+  for (int d = 0; d < D; ++d)
+    for (int k = 0; k < reach.extent(d); ++k) passes = passes || up[d][k] != 0;
+  if (!passes) return;
+  const auto old = alongAxes<D>(reach, [&](int axis, int k) { return before.lengthIn(axis, k); });
+  const auto fresh = alongAxes<D>(reach, [&](int axis, int k) { return after.lengthIn(axis, k); });
+  forEach<D>(cellsIn(faces_.volume, origin, reach), [&](const Index<D>& cell) {
+    const Index<D> k = cell - origin;
+    Vec<D>& weights = weightsOf(cell);
     for (int a = 0; a < D; ++a) {
+      if (up[a][k[a] - reach.lower[a]] == 0) continue;
       double rising = 1, falling = 1;
       for (int d = 0; d < D; ++d) {
         if (d == a) continue;
@@ -216,25 +267,64 @@ Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {
   return coordinates.cwiseMax(least).cwiseMin(most);
 }
 
-/// Measures the bodies at the end of a step, before relocation, and the volume of bodies that passed through faces. For
-/// the latter, each box keeps the shape that it had at the start of the step.
+/// Number of layers of cells around gas in which it may follow walls through faces in a step.
+inline constexpr int sweptReach = 3;
+
+/// Views of the gas at the start of a step, as far as faces matter through which gas may follow walls.
+struct GasNearby : RoomAndMass {
+  static GasNearby from(auto& take) {
+    return {{.free = take(requiresOld(c::freeVolume, sweptReach)), .mass = take(requiresOld(c::density, sweptReach))}};
+  }
+  /// Marks the cells through whose lower faces gas may follow walls.
+  template <int D>
+  CellMarks<D> mark(const Patch& patch) const {
+    CellMarks<D> marks(patch.cells().grown(sweptReach, D));
+    marks.fill(marks.box());
+    const Box rows = rowsWithBodies<D>(marks.box(), sweptReach, false);
+    if (!rows.empty()) markAroundGas(marks, sweptReach, rows);
+    return marks;
+  }
+};
+
+/// Marks the cells of a patch in `needed`, and the cells around them, also outside the patch.
 template <int D>
-void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
+CellMarks<D> markAround(const Patch& patch, const CellMarks<D>& needed) {
+  CellMarks<D> marks(patch.cells().grown(boxReach, D));
+  forEachRow<D>(patch.cells(),
+                [&](const Index<D>& first, int count) { std::copy_n(needed.row(first), count, marks.row(first)); });
+  marks.spread(1, marks.box());
+  return marks;
+}
+
+/// Whether a box is only in its cell and the cells around it.
+template <int D>
+bool isClose(const ParticleBox<D>& box) {
+  bool close = true;
+  for (int d = 0; d < D; ++d) close = close && box.middle[d] - box.edges[d] >= -1 && box.middle[d] + box.edges[d] < 2;
+  return close;
+}
+
+/// Measures the bodies at the end of a step, before relocation, and the volume of bodies that passed through faces near
+/// gas. For the latter, each box keeps the shape that it had at the start of the step.
+template <int D>
+void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&, const GasNearby& gas,
                    const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, const SweptFaces<D>& swept) {
   const Level& level = patch.level();
   free.clear();
   Sweeps<D> sweeps(swept);
+  const CellMarks<D> needed = gas.mark<D>(patch), around = markAround<D>(patch, needed);
   for (const MovedBoxes<D>& boxes : materials)
     forEachParticle<D>(level, boxes.before.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
       if (boxes.after.x[p][0] == data::removed) return;  // its space becomes free, as that of a burnt particle
       const ParticleBox<D> before = boxes.before.of(frame, p);
       ParticleBox<D> after = boxes.after.of(frame, p);
       after.middle = withinReach<D>(after.middle, before.edges.cwiseMax(after.edges));
-      sweeps.add(cell, before, {after.middle, before.edges});
+      const ParticleBox<D> moved{after.middle, before.edges};
+      if (around(cell) || !isClose(before) || !isClose(moved)) sweeps.add(cell, before, moved);
       free.take(cell, after);
     });
   free.settle();
-  sweeps.settle();
+  sweeps.settle(needed);
 }
 
 }  // namespace tushar::mpmice

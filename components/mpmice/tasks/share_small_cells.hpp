@@ -246,11 +246,9 @@ struct SmallCellTotals {
   }
 };
 
-/// Computes the state after a step by merging small cells with neighbours.
+/// Copies the state of a patch before small cells are merged. Narrow holes get the free volume 0.
 template <int D>
-void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
-                     const SmallCellTotals& totals) {
-  const Level& level = patch.level();
+void copyUnshared(const Patch& patch, const Unshared<D>& state, const NewGas<D>& fresh) {
   forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
     const auto copy = [&](const auto& from, const auto& to) {
       std::copy_n(euler::rowOf(from, first, count), count, euler::rowOf(to, first, count));
@@ -259,27 +257,63 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
       copy(state.held.masses[k], fresh.held.masses[k]);
       copy(state.held.shares[k], fresh.held.shares[k]);
     }
-    std::copy_n(euler::rowOf(state.held.density, first, count), count, euler::rowOf(fresh.held.density, first, count));
-    std::copy_n(euler::rowOf(state.held.momentum, first, count), count,
-                euler::rowOf(fresh.held.momentum, first, count));
-    std::copy_n(euler::rowOf(state.free, first, count), count, euler::rowOf(fresh.free, first, count));
-    std::copy_n(euler::rowOf(state.held.totalEnergy, first, count), count,
-                euler::rowOf(fresh.held.totalEnergy, first, count));
+    copy(state.held.density, fresh.held.density);
+    copy(state.held.momentum, fresh.held.momentum);
+    copy(state.held.totalEnergy, fresh.held.totalEnergy);
+    const double* free = euler::rowOf(state.free, first, count);
+    double* open = euler::rowOf(fresh.free, first, count);
+    for (int i = 0; i < count; ++i) open[i] = free[i] < narrowFreeVolume ? 0 : free[i];
   });
+}
+
+/// Whether a cell has nothing to give, and cannot receive anything when small cells are merged.
+template <int D>
+bool isIdle(const Unshared<D>& state, const Index<D>& cell) {
+  return state.held.density[cell] == 0 && state.free[cell] < smallFreeVolume && state.held.totalEnergy[cell] == 0 &&
+         state.held.momentum[cell].isZero(0) && state.held.shares.empty();
+}
+
+/// Marks the small cells of a patch and the cells around them: only these exchange anything.
+template <int D>
+CellMarks<D> markAroundSmall(const Patch& patch, const NearBodies<D>& near, const SmallCells<D>& small) {
+  CellMarks<D> marks(patch.cells().grown(1, D));
+  near.forEachIn(patch.level().clipCells(marks.box()), [&](const Index<D>& cell) {
+    if (small.isSmall(cell)) *marks.row(cell) = 1;
+  });
+  marks.spread(1, near.rows().intersect(marks.box()));
+  return marks;
+}
+
+/// Computes the state after a step by merging small cells with neighbours.
+template <int D>
+void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
+                     const SmallCellTotals& totals) {
+  const Level& level = patch.level();
+  copyUnshared<D>(patch, state, fresh);
   // At the rim of a level, the flux of volume has been corrected.
   if (level.domain().refinement.levels > 1 && !fresh.held.shares.empty() && !areBlended(settings))
     euler::closeShares<D>(patch, settings.gases, fresh.held.shares);
   const NearBodies<D> near(patch.cells(), shareReach, state.free, state.held.density);
   const SmallCells<D> small(level, settings.thinWalls, state);
+  const CellMarks<D> exchanging = markAroundSmall<D>(patch, near, small);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    const Index<D> centre = small.targetOf(cell);
-    if (!(centre == cell)) totals.merged.add(1);
-    shareAt<D>(small, state, cell, centre, fresh.held);
+    if (isIdle<D>(state, cell)) return;
+    if (exchanging(cell)) {
+      const Index<D> centre = small.targetOf(cell);
+      if (!(centre == cell)) totals.merged.add(1);
+      shareAt<D>(small, state, cell, centre, fresh.held);
+      // A hole keeps its contents until there is room.
+      fresh.free[cell] = state.free[centre] < narrowFreeVolume ? 0 : state.free[cell];
+    } else if (state.free[cell] < 1 && !fresh.held.shares.empty()) {
+      Pool<D> own;
+      own.add(state, cell);
+      own.setShares(cell, fresh.held);
+    }
     emptyIfNothingLeft<D>(small, state, cell, fresh.held);
-    if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
   totals.leastFree.add(1);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
+    if (isIdle<D>(state, cell)) return;
     const double free = fresh.free[cell];
     checkGas<D>(level, lawAt<D>(settings, fresh.held, free, cell), cell, fresh);
     if (!(free < leastFreeVolume) && fresh.held.density[cell] > 0) totals.leastFree.add(free);

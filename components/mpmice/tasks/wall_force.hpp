@@ -82,8 +82,8 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
   const FreeSpace<D> space(level, settings, cells);
   const BodiesAtNodes<D> bodies(level, records);
-  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    if (space.isEmpty(cell)) return;
+  near.forEachActingIn(patch.cells(), [&](const Index<D>& cell) {
+    if (space.isEmpty(cell) || space.isOpenAround(cell)) return;
     const euler::Gas law = lawAt<D>(settings, cells.held, cells.free[cell], cell);
     const CellWalls<D> ofCell(level, space, cell, cells.primitive(law, cell));
     for (int d = 0; d < D; ++d) {
@@ -190,6 +190,7 @@ void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, 
   for (int d = 0; d < D; ++d) ++around.upper[d];
   const NearBodies<D> near(around, nearLayers, cells.free, cells.held.density);
   const auto addAt = [&](const Index<D>& cell, int axis) {
+    if (!walls.friction && space.isOpen(cell, axis)) return;
     Vec<D> force = Vec<D>::Zero();
     if (walls.friction) force = frictionAt<D>(level, settings, space, walls, cells, bodies, cell, axis);
     force[axis] += forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
@@ -200,7 +201,7 @@ void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, 
       });
     if (ownsFace<D>(patch, cell, axis)) total.add(level.expandDirection<D>(force));
   };
-  near.forEachIn(around, [&](const Index<D>& cell) {
+  near.forEachActingIn(around, [&](const Index<D>& cell) {
     for (int axis = 0; axis < D; ++axis)
       if (isFace<D>(level, cell, axis)) addAt(cell, axis);
   });
