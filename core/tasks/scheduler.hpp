@@ -66,8 +66,8 @@ class Scheduler {
   /// Discards the results of a graph that was run level by level.
   void forgetNew(const TaskGraph& graph);
 
-  /// Cost of each patch of this rank since the previous call, in seconds of wall time with all threads busy; zeros on a
-  /// single rank.
+  /// Cost of each patch of this rank since the previous call, in seconds of wall time with all threads busy; not
+  /// measured on a single rank.
   std::vector<double> takeCosts();
   /// Forgets everything that depends on the distribution of patches. Must be called when it has changed.
   void forgetLayout();
