@@ -203,13 +203,15 @@ template <class Number>
 template <int D, class Number = double, std::size_t N>
 [[gnu::always_inline]] inline std::array<Number, N> load(const std::array<double*, N>& rows, std::ptrdiff_t i) {
   std::array<Number, N> state;
-  for (std::size_t k = 0; k < state.size(); ++k) state[k] = numberAt<Number>(rows[k] + i);
+#pragma GCC unroll 16
+  for (std::size_t k = 0; k < N; ++k) state[k] = numberAt<Number>(rows[k] + i);
   return state;
 }
 template <int D, class Number = double, std::size_t N>
 [[gnu::always_inline]] inline void store(const std::array<double*, N>& rows, std::ptrdiff_t i,
                                          const std::array<Number, N>& state) {
-  for (std::size_t k = 0; k < state.size(); ++k) put(state[k], rows[k] + i);
+#pragma GCC unroll 16
+  for (std::size_t k = 0; k < N; ++k) put(state[k], rows[k] + i);
 }
 
 /// Calls `visit(number, i)` for positions `i` that together cover a row of `count` cells: Lanes::count cells at a time,

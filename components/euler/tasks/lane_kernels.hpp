@@ -51,7 +51,7 @@ template <int D, class Number>
 
 /// Like recoverRow.
 template <int D, class G>
-void recoverLanes(const G& gas, const ConservedRow<const double>& row, int count, const Pointers<D>& w) {
+void recoverLanes(G gas, ConservedRow<const double> row, int count, const Pointers<D>& w) {
   forEachRegister(
       count, [&]<class Number>(Number, std::ptrdiff_t i) __attribute__((always_inline)) {
         store<D>(w, i, primitive<D>(gas, loadConserved<D, Number>(row, i)));
@@ -79,6 +79,7 @@ template <int D, class Limited, int Axis, class Number, class G>
                                                    const State<D, 1, Number>& w, double ratio,
                                                    CellFaces<D, Number>& faces, State<D, 1, Number>& change) {
   auto &lower = faces.lower[Axis], &upper = faces.upper[Axis];
+#pragma GCC unroll 16
   for (std::size_t k = 0; k < w.size(); ++k) {
     const auto below = numberAt<Number>(row.below[Axis][k] + i), above = numberAt<Number>(row.above[Axis][k] + i);
     const Number half = Limited::half(w[k] - below, above - w[k]);
@@ -86,6 +87,7 @@ template <int D, class Limited, int Axis, class Number, class G>
     upper[k] = w[k] + half;
   }
   const auto in = fluxOf<D, Axis>(gas, lower), out = fluxOf<D, Axis>(gas, upper);
+#pragma GCC unroll 16
   for (std::size_t k = 0; k < w.size(); ++k) change[k] += ratio * (in[k] - out[k]);
 }
 
@@ -94,8 +96,10 @@ template <int D, class Number, class G>
 [[gnu::always_inline]] inline void changeFace(const G& gas, const State<D, 1, Number>& change, State<D, 1, Number>& w,
                                               Number& least) {
   auto u = conserved<D>(gas, w);
+#pragma GCC unroll 16
   for (std::size_t k = 0; k < u.size(); ++k) u[k] += change[k];
   const auto changed = primitive<D>(gas, u);
+#pragma GCC unroll 16
   for (std::size_t k = 0; k < u.size(); ++k) w[k] = changed[k];
   const Number stiff = gas.heat(w[kDensity], w[kPressure<D>]);
   const Number lower = select(w[kDensity] < stiff, w[kDensity], stiff);
@@ -105,7 +109,7 @@ template <int D, class Number, class G>
 /// Computes the values at the faces of a row of cells, half a step later; `ratio` is dt / 2 h along each axis. Cells
 /// with an impossible value at a face get their own values at all faces.
 template <int D, class Limited, class G>
-void predictRow(const G& gas, const RowOfFaces<D>& row, const std::array<double, D>& ratio, int count) {
+void predictRow(G gas, const RowOfFaces<D>& row, std::array<double, D> ratio, int count) {
   forEachRegister(
       count, [&]<class Number>(Number, std::ptrdiff_t i) __attribute__((always_inline)) {
         const State<D, 1, Number> w = load<D, Number>(row.w, i);
@@ -116,12 +120,15 @@ void predictRow(const G& gas, const RowOfFaces<D>& row, const std::array<double,
         if constexpr (D > 1) reconstructCell<D, Limited, 1>(gas, row, i, w, ratio[1], faces, change);
         if constexpr (D > 2) reconstructCell<D, Limited, 2>(gas, row, i, w, ratio[2], faces, change);
         Number least = 1.0;
+#pragma GCC unroll 16
         for (std::size_t d = 0; d < D; ++d) {
           changeFace<D>(gas, change, faces.lower[d], least);
           changeFace<D>(gas, change, faces.upper[d], least);
         }
         const auto isPossible = least > 0.0;
+#pragma GCC unroll 16
         for (std::size_t d = 0; d < D; ++d)
+#pragma GCC unroll 16
           for (std::size_t k = 0; k < w.size(); ++k) {
             put(select(isPossible, faces.lower[d][k], w[k]), row.lower[d][k] + i);
             put(select(isPossible, faces.upper[d][k], w[k]), row.upper[d][k] + i);
@@ -131,7 +138,7 @@ void predictRow(const G& gas, const RowOfFaces<D>& row, const std::array<double,
 
 /// Like fluxRow.
 template <int D, class Flux, int Axis, class G>
-void fluxLanes(const G& gas, const Pointers<D>& below, const Pointers<D>& above, int count, const Pointers<D>& flux) {
+void fluxLanes(G gas, const Pointers<D>& below, const Pointers<D>& above, int count, const Pointers<D>& flux) {
   forEachRegister(
       count, [&]<class Number>(Number, std::ptrdiff_t i) __attribute__((always_inline)) {
         const auto face = Flux::template solve<D, Axis>(gas, load<D, Number>(below, i), load<D, Number>(above, i));
@@ -143,12 +150,14 @@ void fluxLanes(const G& gas, const Pointers<D>& below, const Pointers<D>& above,
 /// axis.
 template <int D>
 void updateLanes(const ConservedRow<const double>& old, const std::array<Pointers<D>, D>& below,
-                 const std::array<Pointers<D>, D>& above, const std::array<double, D>& ratio, int count,
+                 const std::array<Pointers<D>, D>& above, std::array<double, D> ratio, int count,
                  const ConservedRow<double>& fresh) {
   forEachRegister(
       count, [&]<class Number>(Number, std::ptrdiff_t i) __attribute__((always_inline)) {
         State<D, 1, Number> u = loadConserved<D, Number>(old, i);
+#pragma GCC unroll 16
         for (std::size_t d = 0; d < D; ++d)
+#pragma GCC unroll 16
           for (std::size_t k = 0; k < u.size(); ++k)
             u[k] -= ratio[d] * (numberAt<Number>(above[d][k] + i) - numberAt<Number>(below[d][k] + i));
         storeConserved<D>(u, fresh, i);
