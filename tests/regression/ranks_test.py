@@ -198,7 +198,7 @@ class Ranks(FolderTest):
 
     def test_patches_change_ranks_where_particles_are_few_on_some_and_no_bit_changes(self):
         scene, end = "ups/solid/two_discs.ups", "Time/max_Timesteps=20"
-        alone, several = (self.folder(ranks).finish([scene, "-layout", "8x8x1"], [end])[2] for ranks in (1, 3))
+        alone, several = (self.well(self.folder(ranks).run(scene, end, layout="[8,8,1]")) for ranks in (1, 3))
         self.assertEqual(several["fingerprint"], alone["fingerprint"])
         changes = several["wall"]["rebalanced"]
         self.assertGreaterEqual(changes["times"], 1)

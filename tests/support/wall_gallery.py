@@ -17,10 +17,10 @@ from sus import ROOT, SUS
 
 WIDTH = 1 / 32
 BODY = "MaterialProperties/MPM/material"
-LEFT = "MaterialProperties/ICE/material/geom_object[1]"
+LEFT, RIGHT = (f"MaterialProperties/ICE/material/geom_object[{k}]" for k in (1, 2))
 TOTALS = ("GasMass", "GasEnergy", "GasWorkOnBodies", "LeastGasMass", "LeastGasHeat", "MergedCells")
 PLANE = ("Grid/Level/Box/resolution=[64,64,1]", f"Grid/Level/Box/upper=[2,2,{WIDTH}]",
-         f"{BODY}/geom_object/res=[2,2,1]")
+         f"{BODY}/geom_object/res=[2,2,1]", f"{LEFT}/box/max=[1,2,1]", f"{RIGHT}/box/max=[2,2,1]")
 
 
 def line(thickness, start=1.0, sets=()):
