@@ -75,11 +75,11 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
 }
 
 /// The initial gases of a cell: those at its centre or, if there are none, at the nearest cell centre that has gas,
-/// since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, if there is none at this one,
-/// although no body is near, or if the gases do not fill the cell.
+/// since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, if there is none at this
+/// one, although no body is near, or if the gases do not fill the cell.
 template <int D>
-ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases,
-                             CellView<const double> free, const Index<D>& cell) {
+ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, CellView<const double> free,
+                             const Index<D>& cell) {
   const auto pointOf = [&](const Index<D>& of) { return level.expandPoint<D>(level.cellCentre<D>(of)); };
   Vec3 point = pointOf(cell);
   auto start = ice::MixtureStart<D>::at(level, gases, point);

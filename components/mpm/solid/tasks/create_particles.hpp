@@ -217,28 +217,29 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   if (&level != &level.finest()) return standIn<D>(patch, material, maker, start, particles);
   // A displaced particle may start in another cell than the one that made it, hence on another patch.
   const int around = cellsMovedAtStart(level, start);
-  forEachCellAndBody<D>(patch, material.bodies, around, [&](const Index<D>& cell, const Body& body, ParticleId& inCell) {
-    if (body.seeds) {
-      if (patch.cells().contains(cell)) addSeeds<D>(level, start, material, body, cell, inCell, maker, particles);
-      return;
-    }
-    const Seed part = partOfCell<D>(level, body.particlesPerCell);
-    forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place) {
-      Vec<D> at;
-      for (int d = 0; d < D; ++d)
-        at[d] = level.nodePosition(d, 0) +
-                (cell[d] + (k[d] + 0.5) * part.domain(level.axis(d), level.axis(d))) * level.spacing(d);
-      const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
-      Index<D> home = cell;
-      if (start.solution) {
-        const Vec3 point = level.expandPoint<D>(at);
-        home = level.cellOf<D>(at + level.reduce<D>(start.solution->displacement(elasticOf(material), point, 0)));
-      }
-      if (!patch.cells().contains(home)) return;
-      maker.add(home, id);
-      particles.add(level, start, material, body, at, {place, part.domain, part.volume});
-    });
-  });
+  forEachCellAndBody<D>(
+      patch, material.bodies, around, [&](const Index<D>& cell, const Body& body, ParticleId& inCell) {
+        if (body.seeds) {
+          if (patch.cells().contains(cell)) addSeeds<D>(level, start, material, body, cell, inCell, maker, particles);
+          return;
+        }
+        const Seed part = partOfCell<D>(level, body.particlesPerCell);
+        forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place) {
+          Vec<D> at;
+          for (int d = 0; d < D; ++d)
+            at[d] = level.nodePosition(d, 0) +
+                    (cell[d] + (k[d] + 0.5) * part.domain(level.axis(d), level.axis(d))) * level.spacing(d);
+          const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
+          Index<D> home = cell;
+          if (start.solution) {
+            const Vec3 point = level.expandPoint<D>(at);
+            home = level.cellOf<D>(at + level.reduce<D>(start.solution->displacement(elasticOf(material), point, 0)));
+          }
+          if (!patch.cells().contains(home)) return;
+          maker.add(home, id);
+          particles.add(level, start, material, body, at, {place, part.domain, part.volume});
+        });
+      });
 }
 
 /// Sets a variable to its initial value of zero on every particle.
