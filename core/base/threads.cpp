@@ -130,6 +130,7 @@ void Threads::resize(int count) {
   if (count > 1) pool_ = std::make_unique<Pool>(count);
 }
 
+// TBB divides a loop evenly, so each thread begins with an equal part of the order.
 void Threads::distribute(const std::vector<double>& costs) {
   constexpr double worthwhile = 0.95;
   if (costs.empty()) return order_.clear();

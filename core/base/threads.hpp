@@ -33,6 +33,8 @@ class Threads {
   /// except those that it takes from a thread that is late. Does nothing if the gain would be less than a twentieth. If
   /// `costs` is empty, each thread gets consecutive iterations again.
   void distribute(const std::vector<double>& costs);
+  /// The order in which threads get these iterations, one thread after the other; empty: consecutive.
+  const std::vector<int>& order() const { return order_; }
 
   /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If a
   /// call throws, the remaining calls are made nevertheless; then the exception of the call with the lowest number is
@@ -80,7 +82,7 @@ class Threads {
   bool counted_outside_ = false;
   Use use_;
   std::unique_ptr<Pool> pool_;  ///< null if there is only one thread
-  std::vector<int> order_;      ///< iterations of loops of this length, by thread; empty: consecutive
+  std::vector<int> order_;      ///< see order()
 };
 
 }  // namespace tushar

@@ -45,6 +45,32 @@ TEST(Threads, CallTheLoopOnceForEachNumber) {
   }
 }
 
+TEST(Threads, MakeIterationsInTheOrderOfTheDistribution) {
+  Threads threads(2);
+  threads.distribute({6, 6, 1, 1});
+  EXPECT_EQ(threads.order(), (std::vector<int>{0, 2, 1, 3}));
+  threads.resize(1);  // so that there is one sequence
+  std::vector<int> made;
+  threads.forEach(4, [&](int k) { made.push_back(k); });
+  EXPECT_EQ(made, threads.order());
+  made.clear();
+  threads.forEach(3, [&](int k) { made.push_back(k); });
+  EXPECT_EQ(made, (std::vector<int>{0, 1, 2}));  // a loop of another length
+}
+
+TEST(Threads, KeepADistributionThatIsNearlyAsEven) {
+  Threads threads(2);
+  threads.distribute({6, 1, 6.2, 1});
+  EXPECT_TRUE(threads.order().empty());
+  threads.distribute({6, 6, 1, 1});
+  const std::vector<int> order = threads.order();
+  EXPECT_FALSE(order.empty());
+  threads.distribute({6, 6.2, 1, 1});
+  EXPECT_EQ(threads.order(), order);
+  threads.distribute({});
+  EXPECT_TRUE(threads.order().empty());
+}
+
 TEST(Threads, CallTheLoopOnceForEachNumberInAnyDistribution) {
   Threads threads(3);
   for (const std::vector<double>& costs : {std::vector<double>{}, {0, 0, 0}, {5, 1, 1}, {1, 2, 3, 4, 5, 6, 7}, {9}}) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "core/base/error.hpp"
 #include "tests/support/run.hpp"
@@ -273,6 +275,27 @@ TEST(Scheduler, UsesAsManyThreadsAsTheCellsAreWorthAlsoWhenTheseBecomeMore) {
   asPay.forgetLayout();
 
   EXPECT_EQ(asPay.threads().count(), 4);
+}
+
+TEST(Scheduler, GivesEachThreadPatchesThatTakeEqualTimes) {
+  test::Runner run(test::domain({{8, 1, 1}}, {{4, 1, 1}}), 2);
+  TaskList list;
+  list.perPatch(
+      "wait",
+      [](const Patch& patch, CellView<double> field) {
+        fillCells<1>(patch, field);
+        if (patch.id() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      },
+      computes(number));
+  TaskGraph graph = run.compile(list, {"c.number"});
+  EXPECT_TRUE(run.scheduler.threads().order().empty());
+  for (int k = 0; k < 20; ++k) run.step(graph);
+
+  std::vector<int> order = run.scheduler.threads().order();
+  ASSERT_EQ(order.size(), 4u);
+  EXPECT_EQ(std::min(order[0], order[1]) + std::min(order[2], order[3]), 0 + 1);  // one of the slow patches for each
+  run.scheduler.forgetLayout();
+  EXPECT_TRUE(run.scheduler.threads().order().empty());
 }
 
 }  // namespace tushar::tasks
