@@ -226,4 +226,24 @@ template <class Visit>
     for (std::ptrdiff_t i = 0; i < count; i += lanes) visit(Lanes(0.0), std::min<std::ptrdiff_t>(i, count - lanes));
 }
 
+/// The greatest of numbers of the cells of a box, or 0 if none is positive. Calls `compute(first, count, numbers)` for
+/// parts of rows, which sets a number for each of their cells; so the loop over these uses vector registers.
+template <int D, class Compute>
+double greatestInRows(const Box& box, Compute&& compute) {
+  constexpr int most = 256, lanes = 8;
+  std::array<double, most> numbers{};
+  std::array<double, lanes> greatest{};
+  forEachRow<D>(box, [&](Index<D> first, int cells) {
+    for (int done = 0; done < cells; done += most, first[0] += most) {
+      const int count = std::min(most, cells - done), end = (count + lanes - 1) / lanes * lanes;
+      compute(first, count, numbers.data());
+      for (int i = count; i < end; ++i) numbers[static_cast<std::size_t>(i)] = 0;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(end); i += lanes)
+        for (std::size_t k = 0; k < lanes; ++k)
+          greatest[k] = numbers[i + k] > greatest[k] ? numbers[i + k] : greatest[k];
+    }
+  });
+  return *std::max_element(greatest.begin(), greatest.end());
+}
+
 }  // namespace tushar::euler

@@ -30,20 +30,17 @@ double fastestRate(const Patch& patch, const euler::Gas& gas, const GasInCells<D
   return most;
 }
 
-/// The rates of fastestRate in a part of a row, for a stiffened gas; 0 in cells without gas.
+/// Like fastestRate, for a stiffened gas, in vector registers; none if a state is impossible.
 template <int D>
-struct RatesOfRows {
-  static constexpr int most = 256, lanes = 8;
-
-  /// Whether all states were possible.
-  bool fine = true;
-
-  void add(const euler::StiffenedGas& gas, const Vec<D>& perWidth, const GasInCells<D>& cells, const Index<D>& first,
-           int count) {
+std::optional<double> fastestRateInRows(const Patch& patch, const euler::StiffenedGas& gas,
+                                        const GasInCells<D>& cells) {
+  std::array<double, D> perWidth;
+  double widths = 0, bad = 0;
+  for (int d = 0; d < D; ++d) widths += perWidth[d] = patch.level().inverseSpacing(d);
+  const double most = euler::greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int count, double* rate) {
     const double *free = &cells.free[first], *held = &cells.held.density[first];
     const double *energy = &cells.held.totalEnergy[first], *m = cells.held.momentum[first].data();
-    double widths = 0, bad = 0;
-    for (int d = 0; d < D; ++d) widths += perWidth[d];
+#pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
       const bool isEmpty = (free[i] < leastFreeVolume) | !(held[i] > 0);
       const double share = 1 / free[i], rho = held[i] * share, inverse = 1 / rho;
@@ -54,37 +51,20 @@ struct RatesOfRows {
       }
       const double stiff = gas.pressure(rho, energy[i] * share - 0.5 * squared * inverse) + gas.pInfinity;
       bad = isEmpty | (stiff > 0) ? bad : 1.0;
-      const double rate = sum * inverse + std::sqrt(gas.gamma * stiff * inverse) * widths;
-      rates_[i] = isEmpty ? 0.0 : rate;
+      rate[i] = isEmpty ? 0.0 : sum * inverse + std::sqrt(gas.gamma * stiff * inverse) * widths;
     }
-    fine &= bad == 0;
-    const int end = (count + lanes - 1) / lanes * lanes;
-    for (int i = count; i < end; ++i) rates_[i] = 0;
-    for (int i = 0; i < end; i += lanes)
-      for (int k = 0; k < lanes; ++k) greatest_[k] = rates_[i + k] > greatest_[k] ? rates_[i + k] : greatest_[k];
-  }
-  double greatest() const { return *std::max_element(greatest_.begin(), greatest_.end()); }
-
- private:
-  std::array<double, most> rates_{};
-  std::array<double, lanes> greatest_{};
-};
+  });
+  return bad == 0 ? std::optional(most) : std::nullopt;
+}
 
 /// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d) of the gas.
 /// Throws NumericalError where its density, or p + p_inf, is not positive.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const euler::Gas& gas = settings.gas.gas;
-  RatesOfRows<D> rates;
-  if (!gas.law) {
-    Vec<D> perWidth;
-    for (int d = 0; d < D; ++d) perWidth[d] = patch.level().inverseSpacing(d);
-    forEachRow<D>(patch.cells(), [&](Index<D> first, int count) {
-      for (int done = 0; done < count; done += rates.most, first[0] += rates.most)
-        rates.add(euler::lawOf<euler::StiffenedGas>(gas), perWidth, cells, first, std::min(rates.most, count - done));
-    });
-  }
-  const double most = gas.law || !rates.fine ? fastestRate<D>(patch, gas, cells) : rates.greatest();
+  std::optional<double> rate;
+  if (!gas.law) rate = fastestRateInRows<D>(patch, euler::lawOf<euler::StiffenedGas>(gas), cells);
+  const double most = rate ? *rate : fastestRate<D>(patch, gas, cells);
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
