@@ -108,6 +108,7 @@ class BodiesAtNodes {
   }
 
  private:
+  /// One lane of a record in memory. The operator of a record that cannot change is for records in registers.
   static double numberIn(const mpm::solid::NodeRecord& record, int lane) {
     return reinterpret_cast<const double*>(&record)[lane];
   }

@@ -79,7 +79,8 @@ class FreeSpace {
     if (!level_->isPeriodic(axis) &&
         (cell[axis] <= level_->cells().lower[axis] || cell[axis] >= level_->cells().upper[axis]))
       return false;
-    return isWhole(below) && isWhole(cell) && !(1 - cells_.coverage[cell][axis] < 1);
+    const bool isCovered = 1 - cells_.coverage[cell][axis] < 1;  // by more than round-off, as in openShare
+    return isWhole(below) && isWhole(cell) && !isCovered;
   }
   /// Whether all faces of a cell are open.
   bool isOpenAround(const Index<D>& cell) const {

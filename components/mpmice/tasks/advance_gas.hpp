@@ -141,7 +141,7 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
 /// laws of their own, closeGases at the end of the step.
 template <int D, class G>
 bool canBeIn(const G& gas, const Index<D>& first, int count, const euler::StateViews<D, double>& fresh) {
-  if constexpr (euler::kGases < G >> 1)
+  if constexpr (constexpr int gases = euler::kGases<G>; gases > 1)
     return false;
   else
     return euler::canBe<D>(gas, &fresh.density[first], fresh.momentum[first].data(), &fresh.totalEnergy[first], count);
