@@ -185,7 +185,7 @@ inline constexpr ReductionLabel<Sum> burntMass{"BurntMass", "kg", "mass of bodie
 inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat released by burning since the start"};
 inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that leaked through bodies since the start"};
 inline constexpr ReductionLabel<Sum> mergedCells{
-    "MergedCells", "1", "number of cells whose gas was merged with that of a neighbour in the step"};
+    "MergedCells", "1", "number of small cells, with some free volume, merged with a neighbour in the step"};
 inline constexpr ReductionLabel<Minimum> leastFreeVolume{
     "LeastFreeVolume", "1", "smallest open fraction of a cell that contains gas, after the step"};
 inline constexpr ReductionLabel<Minimum> leastMass{"LeastGasMass", "kg/m^3",

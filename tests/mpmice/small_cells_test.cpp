@@ -126,6 +126,17 @@ TEST(SmallCells, ShareByVolume) {
   EXPECT_EQ(gas.after.density.values[4], 1);
 }
 
+TEST(SmallCells, AreCountedIfTheyHaveFreeVolume) {
+  for (const double free : {0.0, 0.25}) {
+    Sharing<1> gas(6);
+    gas.fill({2}, free);
+    gas.before.density.cells()[Index<1>{2}] += 1e-34;  // round-off
+    gas.share();
+    EXPECT_EQ(gas.merged.value, free > 0 ? 1 : 0);
+    EXPECT_EQ(gas.targetOf({2}), Index<1>{1}) << "round-off is given away, too";
+  }
+}
+
 TYPED_TEST(SmallCellsAlongAxes, KeepMassMomentumAndEnergy) {
   constexpr int D = TypeParam::value;
   Sharing<D> gas(D == 1 ? 200 : D == 2 ? 20 : 8);

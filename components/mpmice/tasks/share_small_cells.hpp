@@ -300,7 +300,8 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     if (isIdle<D>(state, cell)) return;
     if (exchanging(cell)) {
       const Index<D> centre = small.targetOf(cell);
-      if (!(centre == cell)) totals.merged.add(1);
+      // A full cell may have a mass of round-off, and give it away.
+      if (!(centre == cell) && !(state.free[cell] < leastFreeVolume)) totals.merged.add(1);
       shareAt<D>(small, state, cell, centre, fresh.held);
       // A hole keeps its contents until there is room.
       fresh.free[cell] = state.free[centre] < narrowFreeVolume ? 0 : state.free[cell];
