@@ -35,14 +35,16 @@ template <int D>
 std::optional<double> fastestRateInRows(const Patch& patch, const euler::StiffenedGas& gas,
                                         const GasInCells<D>& cells) {
   std::array<double, D> perWidth;
-  double widths = 0, bad = 0;
+  double widths = 0;
+  bool isPossible = true;
   for (int d = 0; d < D; ++d) widths += perWidth[d] = patch.level().inverseSpacing(d);
   const double most = euler::greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int count, double* rate) {
     const double *free = &cells.free[first], *held = &cells.held.density[first];
     const double *energy = &cells.held.totalEnergy[first], *m = cells.held.momentum[first].data();
+    double bad = 0;
 #pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
-      const bool isEmpty = (free[i] < leastFreeVolume) | !(held[i] > 0);
+      const double isOpen = free[i] < leastFreeVolume ? 0.0 : 1.0, hasGas = held[i] > 0 ? isOpen : 0.0;
       const double share = 1 / free[i], rho = held[i] * share, inverse = 1 / rho;
       double squared = 0, sum = 0;
       for (int d = 0; d < D; ++d) {
@@ -50,11 +52,14 @@ std::optional<double> fastestRateInRows(const Patch& patch, const euler::Stiffen
         sum += std::abs(m[i * D + d] * share) * perWidth[d];
       }
       const double stiff = gas.pressure(rho, energy[i] * share - 0.5 * squared * inverse) + gas.pInfinity;
-      bad = isEmpty | (stiff > 0) ? bad : 1.0;
-      rate[i] = isEmpty ? 0.0 : sum * inverse + std::sqrt(gas.gamma * stiff * inverse) * widths;
+      const double impossible = stiff > 0 ? 0.0 : hasGas;
+      bad = impossible > 0 ? 1.0 : bad;
+      const double fastest = sum * inverse + std::sqrt(gas.gamma * stiff * inverse) * widths;
+      rate[i] = hasGas > 0 ? fastest : 0.0;
     }
+    isPossible &= bad == 0;
   });
-  return bad == 0 ? std::optional(most) : std::nullopt;
+  return isPossible ? std::optional(most) : std::nullopt;
 }
 
 /// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d) of the gas.
