@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "components/mpm/solid/transfer/extent.hpp"
+#include "core/base/quad.hpp"
 
 namespace tushar::mpmice {
 
@@ -12,19 +13,25 @@ template <int D>
 struct ParticleBox {
   Vec<D> middle, edges;
 
+  /// Lengths along an axis of the parts in four cells, given by the coordinates of their lower faces.
+  Quad lengthsIn(int axis, const Quad& faces) const {
+    const double half = 0.5 * edges[axis];
+    const Quad lower = greater(faces, (middle[axis] - half) + Quad{});
+    const Quad upper = lesser(faces + 1, (middle[axis] + half) + Quad{});
+    return greater(upper - lower, Quad{});
+  }
   /// Length along an axis of the part in cell `k`, in cells.
-  double lengthIn(int axis, int k) const {
-    const double lower = std::max(middle[axis] - 0.5 * edges[axis], double(k));
-    const double upper = std::min(middle[axis] + 0.5 * edges[axis], k + 1.0);
-    return std::max(0.0, upper - lower);
+  double lengthIn(int axis, int k) const { return lengthsIn(axis, double(k) + Quad{})[0]; }
+  /// Lengths along an axis of the parts above four faces.
+  Quad lengthsAbove(int axis, const Quad& faces) const {
+    return lesser(greater(middle[axis] + 0.5 * edges[axis] - faces, Quad{}), edges[axis] + Quad{});
   }
-  /// Length along an axis of the part above the lower face of cell `k`, in cells.
-  double lengthAbove(int axis, int k) const {
-    return std::clamp(middle[axis] + 0.5 * edges[axis] - k, 0.0, edges[axis]);
+  /// Weights of four faces along an axis: 1 at the centre of the box, decreasing to 0 at a distance of one edge of the
+  /// box. So adjacent boxes fully cover a face.
+  Quad hatsAt(int axis, const Quad& faces) const {
+    const Quad apart = faces - middle[axis];
+    return greater(1 - greater(apart, -apart) / edges[axis], Quad{});
   }
-  /// Weight of the lower face of cell `k` along an axis: 1 at the centre of the box, decreasing to 0 at a distance of
-  /// one edge of the box. So adjacent boxes fully cover a face.
-  double hatAt(int axis, int k) const { return std::max(0.0, 1 - std::abs(k - middle[axis]) / edges[axis]); }
 
   /// The cells into which the box may extend, or whose lower faces have a weight.
   Box reach() const {
@@ -35,6 +42,10 @@ struct ParticleBox {
     }
     return cells;
   }
+
+ private:
+  static Quad greater(const Quad& a, const Quad& b) { return a > b ? a : b; }
+  static Quad lesser(const Quad& a, const Quad& b) { return a < b ? a : b; }
 };
 
 /// Longest edge of a box, in cells; longer particles are treated as if they had this length.

@@ -19,7 +19,7 @@ struct HalfSpace {
 
   /// Creates the boxes whose centres lie beyond the plane through `corner` + `shift` cells with normal `into`.
   HalfSpace(const Vec<D>& into, double shift) : fields(level.cells()) {
-    const FreeShares<D> shares{fields.free.cells(), fields.coverage.cells()};
+    TakenShares<D> shares{{fields.free.cells(), fields.coverage.cells()}};
     forEach<D>(cube<D>(size * perCell), [&](const Index<D>& at) {
       Index<D> cell;
       ParticleBox<D> box;

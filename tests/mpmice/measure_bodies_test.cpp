@@ -14,10 +14,9 @@ TYPED_TEST_SUITE(BodiesAlongAxes, AllAxes);
 template <int D>
 struct Shares {
   explicit Shares(int size) : volume(cube<D>(size), 1), coverage(cube<D>(size), Vec<D>::Zero()) {}
-  FreeShares<D> views() { return {volume.cells(), coverage.cells()}; }
-
   Field<double> volume;
   Field<Vec<D>> coverage;
+  TakenShares<D> taken{{volume.cells(), coverage.cells()}};
 };
 
 /// A box centred in a cell, in coordinates of that cell.
@@ -42,8 +41,9 @@ double greatestHoleOf(const mpm::solid::Matrix3& f, int seed) {
       const Vec<2> x = f.topLeftCorner<2, 2>() * Vec<2>(0.5 * i, 0.5 * j) + Vec<2>(wild(seed), wild(seed + 0.5)) +
                        Vec<2>::Constant(4.5);
       const Index<2> cell{static_cast<int>(std::floor(x[0])), static_cast<int>(std::floor(x[1]))};
-      shares.views().take(cell, {Vec<2>(x[0] - cell[0], x[1] - cell[1]), edgesOf<2>(grid.level(), size, f)});
+      shares.taken.take(cell, {Vec<2>(x[0] - cell[0], x[1] - cell[1]), edgesOf<2>(grid.level(), size, f)});
     }
+  shares.taken.settle();
   double greatest = 0;
   forEach<2>(cube<2>(9), [&](const Index<2>& cell) { greatest = std::max(greatest, shares.volume.seen()[cell]); });
   return greatest;
@@ -63,9 +63,9 @@ TYPED_TEST(BodiesAlongAxes, LeaveNothingFreeWhereTheyTileTheCells) {
       box.middle[d] = (at[d] % 3 + 0.5) / 3;
       box.edges[d] = 1.0 / 3;
     }
-    shares.views().take(cell, box);
+    shares.taken.take(cell, box);
   });
-  shares.views().settle();
+  shares.taken.settle();
   forEach<D>(cube<D>(5), [&](const Index<D>& cell) {
     EXPECT_NEAR(shares.volume.seen()[cell], 0, 4e-15);
     for (int d = 0; d < D; ++d) EXPECT_NEAR(shares.coverage.seen()[cell][d], cell[d] == 0 ? 0.5 : 1.0, 1e-14);
@@ -77,10 +77,37 @@ TYPED_TEST(BodiesAlongAxes, TakeTheirVolume) {
   for (int seed = 0; seed < 50; ++seed) {
     Shares<D> shares(7);
     const ParticleBox<D> box = boxAt<D>(seed);
-    shares.views().take(Index<D>::filled(3), box);
+    shares.taken.take(Index<D>::filled(3), box);
+    shares.taken.settle();
     double taken = 0;
     for (const double left : shares.volume.values) taken += 1 - left;
     EXPECT_NEAR(taken, box.edges.prod(), 1e-13);
+  }
+}
+
+TYPED_TEST(BodiesAlongAxes, OfOneCellTakeTheSameTogetherAsAlone) {
+  constexpr int D = TypeParam::value;
+  constexpr int count = 20;
+  const Index<D> origin = Index<D>::filled(4);
+  Shares<D> together(9);
+  Field<double> volume(cube<D>(9), 1);
+  Field<Vec<D>> coverage(cube<D>(9), Vec<D>::Zero());
+  for (int seed = 0; seed < count; ++seed) {
+    ParticleBox<D> box = boxAt<D>(seed);
+    for (int d = 0; d < D; ++d) box.middle[d] += 3 * wild(5 * seed + d) - 1.5;  // it has moved to another cell
+    box.edges *= 0.2;
+    Shares<D> alone(9);
+    for (TakenShares<D>* taken : {&alone.taken, &together.taken}) taken->take(origin, box);
+    alone.taken.settle();
+    for (std::size_t k = 0; k < volume.values.size(); ++k) {
+      volume.values[k] -= 1 - alone.volume.values[k];
+      coverage.values[k] += alone.coverage.values[k];
+    }
+  }
+  together.taken.settle();
+  for (std::size_t k = 0; k < volume.values.size(); ++k) {
+    EXPECT_NEAR(together.volume.values[k], std::max(0.0, volume.values[k]), 1e-14);
+    for (int d = 0; d < D; ++d) EXPECT_NEAR(together.coverage.values[k][d], coverage.values[k][d], 1e-14);
   }
 }
 
@@ -88,8 +115,8 @@ TYPED_TEST(BodiesAlongAxes, ThatOverlapLeaveNoLessThanNothing) {
   constexpr int D = TypeParam::value;
   Shares<D> shares(3);
   ParticleBox<D> box{Vec<D>::Constant(0.5), Vec<D>::Ones()};
-  for (int k = 0; k < 3; ++k) shares.views().take(Index<D>::filled(1), box);
-  shares.views().settle();
+  for (int k = 0; k < 3; ++k) shares.taken.take(Index<D>::filled(1), box);
+  shares.taken.settle();
   EXPECT_EQ(shares.volume.seen()[Index<D>::filled(1)], 0);
 }
 
@@ -128,8 +155,10 @@ TYPED_TEST(BodiesAlongAxes, SweepWhatCellsGainOrLose) {
     ParticleBox<D> after = before;
     for (int d = 0; d < D; ++d) after.middle[d] += 1.6 * wild(7 * seed + d) - 0.8;
     const Index<D> origin = Index<D>::filled(4);
-    old.views().take(origin, before);
-    fresh.views().take(origin, after);
+    old.taken.take(origin, before);
+    old.taken.settle();
+    fresh.taken.take(origin, after);
+    fresh.taken.settle();
     Field<Vec<D>> by = swept;
     const SweptFaces<D> faces{swept.cells(), by.cells()};
     Sweeps<D>(faces).add(origin, before, after);

@@ -29,6 +29,8 @@ Vec<2> edgesAfter(const Matrix3& deformation, const Vec<2>& size, int down = 8) 
 }
 
 ParticleBox<1> stretch(double middle, double edge) { return {Vec<1>(middle), Vec<1>(edge)}; }
+double aboveFace(const ParticleBox<1>& box, double face) { return box.lengthsAbove(0, face + Quad{})[0]; }
+double hatAt(const ParticleBox<1>& box, double face) { return box.hatsAt(0, face + Quad{})[0]; }
 
 }  // namespace
 
@@ -37,7 +39,7 @@ TEST(ParticleBox, IsCutByFacesIntoPartsThatAddUp) {
     double inside = 0;
     for (int k = -3; k < 4; ++k) {
       inside += box.lengthIn(0, k);
-      EXPECT_NEAR(box.lengthAbove(0, k) - box.lengthAbove(0, k + 1), box.lengthIn(0, k), 4e-15);
+      EXPECT_NEAR(aboveFace(box, k) - aboveFace(box, k + 1), box.lengthIn(0, k), 4e-15);
     }
     EXPECT_NEAR(inside, box.edges[0], 4e-15);
   }
@@ -46,8 +48,8 @@ TEST(ParticleBox, IsCutByFacesIntoPartsThatAddUp) {
 TEST(ParticleBox, CoversAFaceWhollyTogetherWithItsNeighboursAndByHalfAtASurface) {
   for (const double length : {0.25, 0.3, 1.0, 1.5}) {
     double within = 0, atEnd = 0;
-    for (int i = -10; i < 10; ++i) within += stretch(0.123 + i * length, length).hatAt(0, 1);
-    for (int i = 0; i < 10; ++i) atEnd += stretch(1 - (i + 0.5) * length, length).hatAt(0, 1);
+    for (int i = -10; i < 10; ++i) within += hatAt(stretch(0.123 + i * length, length), 1);
+    for (int i = 0; i < 10; ++i) atEnd += hatAt(stretch(1 - (i + 0.5) * length, length), 1);
     EXPECT_NEAR(within, 1, 1e-14);
     EXPECT_NEAR(atEnd, 0.5, 1e-14);
   }
@@ -61,7 +63,7 @@ TEST(ParticleBox, ReachesWhereverItHasAPartOrAWeight) {
       for (int k = -5; k < 7; ++k) {
         if (k >= reach.lower[0] && k < reach.upper[0]) continue;
         EXPECT_EQ(box.lengthIn(0, k), 0) << middle << " " << edge << " " << k;
-        EXPECT_EQ(box.hatAt(0, k), 0) << middle << " " << edge << " " << k;
+        EXPECT_EQ(hatAt(box, k), 0) << middle << " " << edge << " " << k;
       }
     }
 }

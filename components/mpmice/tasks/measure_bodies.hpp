@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/material.hpp"
+#include "components/mpmice/free_shares.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
 #include "components/mpmice/near_bodies.hpp"
 #include "components/mpmice/particle_box.hpp"
@@ -46,16 +47,6 @@ struct MovedBoxes {
   }
 };
 
-/// A number for each cell of a box along each axis. The boxes of particles extend over only a few cells, even while
-/// they move.
-template <int D, class Make>
-auto alongAxes(const Box& reach, Make&& make) {
-  std::array<std::array<double, 2 * (boxReach + 2)>, D> values;
-  for (int d = 0; d < D; ++d)
-    for (int k = reach.lower[d]; k < reach.upper[d]; ++k) values[d][k - reach.lower[d]] = make(d, k);
-  return values;
-}
-
 /// The cells of a view in a box of cells around the cell `origin`; `reach` is relative to this cell.
 template <int D, class T>
 Box cellsIn(const CellView<T>& view, const Index<D>& origin, const Box& reach) {
@@ -64,77 +55,17 @@ Box cellsIn(const CellView<T>& view, const Index<D>& origin, const Box& reach) {
   return reach.shifted(shift).intersect(view.box());
 }
 
-/// The volume fractions and faces that bodies leave free on a patch, from which the boxes of particles are subtracted.
-template <int D>
-struct FreeShares {
-  CellView<double> volume;
-  CellView<Vec<D>> coverage;
-
-  /// `volume` is the label of the free volume.
-  static FreeShares from(auto& take, const CellLabel<double>* volume) {
-    return {.volume = take(computes(*volume)), .coverage = take(computes(c::coverage<D>))};
-  }
-  void clear() const {
-    volume.fill(1);
-    coverage.fill(Vec<D>::Zero());
-  }
-  /// Subtracts the contribution of a particle's box, whose coordinates are relative to the cell `origin`.
-  void take(const Index<D>& origin, const ParticleBox<D>& box) const {
-    if (!(box.edges.minCoeff() > 0)) return;  // it has burned
-    Along inside, hat;                        // lengths in cells, and weights of their lower faces
-    Index<D> lowest = origin;
-    Box cells{{}, Index3::filled(1)};
-    for (int d = 0; d < D; ++d) {
-      const int low = static_cast<int>(std::floor(box.middle[d] - box.edges[d]));
-      for (int k = 0; k < mostCells; ++k) inside[d][k] = box.lengthIn(d, low + k);
-      for (int k = 0; k < mostCells; ++k) hat[d][k] = box.hatAt(d, low + k);
-      cells.lower[d] = lowest[d] += low;
-      cells.upper[d] = origin[d] + static_cast<int>(std::floor(box.middle[d] + box.edges[d])) + 1;
-    }
-    forEachRow<D>(cells.intersect(volume.box()), [&](const Index<D>& first, int count) {
-      takeRow(inside, hat, first - lowest, count, &volume[first], &coverage[first]);
-    });
-  }
-  /// Sets the free volume to 0 where it is negative because bodies overlap.
-  void settle() const {
-    forEach<D>(volume.box(), [&](const Index<D>& cell) { volume[cell] = std::max(0.0, volume[cell]); });
-  }
-
- private:
-  /// The largest number of cells along an axis that a box may reach.
-  static constexpr int mostCells = 4;
-  static_assert(2 * longestEdge <= mostCells - 1);
-  /// A number for each of these cells along each axis.
-  using Along = std::array<std::array<double, mostCells>, D>;
-
-  /// Subtracts the contribution of a box to a row of cells; `k` is the place of the first one in the lists.
-  static void takeRow(const Along& inside, const Along& hat, const Index<D>& k, int count, double* room,
-                      Vec<D>* faces) {
-    for (int i = 0; i < count; ++i) {
-      const double along = inside[0][k[0] + i];
-      double filled = along, covered = hat[0][k[0] + i];
-      for (int d = 1; d < D; ++d) {
-        filled *= inside[d][k[d]];
-        covered *= inside[d][k[d]];
-      }
-      room[i] -= filled;
-      faces[i][0] += covered;
-      for (int a = 1; a < D; ++a) {
-        covered = hat[a][k[a]] * along;
-        for (int d = 1; d < D; ++d)
-          if (d != a) covered *= inside[d][k[d]];
-        faces[i][a] += covered;
-      }
-    }
-  }
-};
-
-/// Calls `visit(origin, frame, particle)` for the particles around a patch, ordered by cell and id; `origin` is the
-/// cell.
+/// Calls `visit(cell, frame, particles)` for the cells around a patch that contain particles, which are ordered by id.
+template <int D, class Visit>
+void forEachCell(const Level& level, const ParticleView<const Vec<D>>& x, Visit&& visit) {
+  x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
+    visit(cell, mpm::CellFrame<D>(level, cell), range);
+  });
+}
+/// Calls `visit(cell, frame, particle)` for the particles around a patch, ordered by cell and id.
 template <int D, class Visit>
 void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Visit&& visit) {
-  x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
-    const mpm::CellFrame<D> frame(level, cell);
+  forEachCell<D>(level, x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, const data::ParticleRange& range) {
     for (const int p : range) visit(cell, frame, p);
   });
 }
@@ -143,12 +74,12 @@ void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Vi
 template <int D>
 void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material>&,
                       const std::vector<Boxes<D>>& materials, const FreeShares<D>& free) {
-  free.clear();
+  TakenShares<D> taken(free);
   for (const Boxes<D>& boxes : materials)
     forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
-      free.take(cell, boxes.of(frame, p));
+      taken.take(cell, boxes.of(frame, p));
     });
-  free.settle();
+  taken.settle();
 }
 
 /// Views of what one of several bodies leaves free.
@@ -161,11 +92,11 @@ struct FreeOfBody : FreeShares<D> {
 /// a step.
 template <int D>
 void measureBody(const Patch& patch, const mpm::solid::Material&, const Boxes<D>& boxes, const FreeOfBody<D>& free) {
-  free.clear();
+  TakenShares<D> taken(free);
   forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
-    free.take(cell, boxes.of(frame, p));
+    taken.take(cell, boxes.of(frame, p));
   });
-  free.settle();
+  taken.settle();
 }
 
 /// Views of what moves through the lower faces of cells in a step: the volume of bodies, and the mean of their
@@ -207,6 +138,11 @@ class Sweeps {
   }
 
  private:
+  /// A number for each cell along one axis of those that a box reaches while it moves.
+  using Along = std::array<double, 2 * (boxReach + 2)>;
+  static_assert(std::tuple_size_v<Along> % 4 == 0);
+
+  static void store(const Quad& numbers, double* to) { std::memcpy(to, &numbers, sizeof(numbers)); }
   /// The weights of the displacements through the faces of a cell. At the first call, all sums of the cell become 0.
   Vec<D>& weightsOf(const Index<D>& cell) {
     Vec<D>& weights = weights_[offsetIn<D>(touched_.box(), cell)];
@@ -225,33 +161,38 @@ class Sweeps {
 template <int D>
 void Sweeps<D>::add(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after) {
   if (before.middle == after.middle) return;
-  const Box from = before.reach(), to = after.reach();
-  Box reach = from;
+  Box reach{{}, Index3::filled(1)};  // the cells with parts of a box
+  Along up[D], old[D], fresh[D];
+  double most = 0;
   for (int d = 0; d < D; ++d) {
-    reach.lower[d] = std::min(from.lower[d], to.lower[d]);
-    reach.upper[d] = std::max(from.upper[d], to.upper[d]);
+    const auto [least, greatest] = std::minmax(before.middle[d], after.middle[d]);
+    const double half = 0.5 * std::max(before.edges[d], after.edges[d]);
+    reach.lower[d] = static_cast<int>(std::floor(least - half));
+    reach.upper[d] = static_cast<int>(std::floor(greatest + half)) + 1;
+    for (int k = 0; k < reach.extent(d); k += 4) {
+      const Quad faces = Quad{0, 1, 2, 3} + (reach.lower[d] + k);
+      const Quad rise = after.lengthsAbove(d, faces) - before.lengthsAbove(d, faces);
+      store(rise, &up[d][k]);
+      store(before.lengthsIn(d, faces), &old[d][k]);
+      store(after.lengthsIn(d, faces), &fresh[d][k]);
+      for (int i = 0; i < 4; ++i) most = std::max(most, std::abs(rise[i]));
+    }
   }
-  const auto up =
-      alongAxes<D>(reach, [&](int axis, int k) { return after.lengthAbove(axis, k) - before.lengthAbove(axis, k); });
-  bool passes = false;
-  for (int d = 0; d < D; ++d)
-    for (int k = 0; k < reach.extent(d); ++k) passes = passes || up[d][k] != 0;
-  if (!passes) return;
-  const auto old = alongAxes<D>(reach, [&](int axis, int k) { return before.lengthIn(axis, k); });
-  const auto fresh = alongAxes<D>(reach, [&](int axis, int k) { return after.lengthIn(axis, k); });
+  if (most == 0) return;
   forEach<D>(cellsIn(faces_.volume, origin, reach), [&](const Index<D>& cell) {
-    const Index<D> k = cell - origin;
+    Index<D> k = cell - origin;
+    for (int d = 0; d < D; ++d) k[d] -= reach.lower[d];
     Vec<D>& weights = weightsOf(cell);
     for (int a = 0; a < D; ++a) {
-      if (up[a][k[a] - reach.lower[a]] == 0) continue;
+      if (up[a][k[a]] == 0) continue;
       double rising = 1, falling = 1;
       for (int d = 0; d < D; ++d) {
         if (d == a) continue;
-        const double was = old[d][k[d] - reach.lower[d]], is = fresh[d][k[d] - reach.lower[d]];
+        const double was = old[d][k[d]], is = fresh[d][k[d]];
         rising *= d < a ? is : was;
         falling *= d < a ? was : is;
       }
-      const double volume = 0.5 * up[a][k[a] - reach.lower[a]] * (rising + falling);
+      const double volume = 0.5 * up[a][k[a]] * (rising + falling);
       faces_.volume[cell][a] += volume;
       faces_.shift[cell][a] += std::abs(volume) * (after.middle[a] - before.middle[a]);
       weights[a] += std::abs(volume);
@@ -310,20 +251,23 @@ template <int D>
 void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&, const GasNearby& gas,
                    const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, const SweptFaces<D>& swept) {
   const Level& level = patch.level();
-  free.clear();
+  TakenShares<D> taken(free);
   Sweeps<D> sweeps(swept);
   const CellMarks<D> needed = gas.mark<D>(patch), around = markAround<D>(patch, needed);
   for (const MovedBoxes<D>& boxes : materials)
-    forEachParticle<D>(level, boxes.before.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
-      if (boxes.after.x[p][0] == data::removed) return;  // its space becomes free, as that of a burnt particle
-      const ParticleBox<D> before = boxes.before.of(frame, p);
-      ParticleBox<D> after = boxes.after.of(frame, p);
-      after.middle = withinReach<D>(after.middle, before.edges.cwiseMax(after.edges));
-      const ParticleBox<D> moved{after.middle, before.edges};
-      if (around(cell) || !isClose(before) || !isClose(moved)) sweeps.add(cell, before, moved);
-      free.take(cell, after);
+    forEachCell<D>(level, boxes.before.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, const auto& range) {
+      const bool isNearGas = around(cell);
+      for (const int p : range) {
+        if (boxes.after.x[p][0] == data::removed) continue;  // its space becomes free, as that of a burnt particle
+        const ParticleBox<D> before = boxes.before.of(frame, p);
+        ParticleBox<D> after = boxes.after.of(frame, p);
+        after.middle = withinReach<D>(after.middle, before.edges.cwiseMax(after.edges));
+        const ParticleBox<D> moved{after.middle, before.edges};
+        if (isNearGas || !isClose(before) || !isClose(moved)) sweeps.add(cell, before, moved);
+        taken.take(cell, after);
+      }
     });
-  free.settle();
+  taken.settle();
   sweeps.settle(needed);
 }
 
