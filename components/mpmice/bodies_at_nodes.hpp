@@ -92,10 +92,17 @@ class BodiesAtNodes {
   void distribute(const Index<D>& cell, int axis, Visit&& visit) const {
     double whole = 0;
     constexpr int lane = mpm::solid::lane::velocity;
+    if (records_->size() == 1) {
+      const double mass = sumAt(cell, axis, 0, lane).mass;
+      forEachAt(cell, axis, 0, [&](const Index<D>& node, const mpm::solid::NodeRecord&, double m) {
+        visit(std::size_t{0}, node, m / mass);
+      });
+      return;
+    }
     forEachBody(cell, axis, lane, [&](std::size_t, double part, const Content&) { whole += part; });
     forEachBody(cell, axis, lane, [&](std::size_t body, double part, const Content& of) {
       forEachAt(cell, axis, body, [&](const Index<D>& node, const mpm::solid::NodeRecord&, double m) {
-        visit(body, node, records_->size() == 1 ? m / of.mass : m / of.mass * (part / whole));
+        visit(body, node, m / of.mass * (part / whole));
       });
     });
   }

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/near_bodies.hpp"
 
 namespace tushar::mpmice {
 
@@ -55,6 +56,9 @@ class FreeSpace {
   FreeSpace(const Level& level, const Settings& settings, const GasInCells<D>& cells)
       : level_(&level), thin_walls_(settings.thinWalls), cells_(cells) {}
 
+  /// Measures the open fractions of faces near bodies all at once, for tasks that ask for them often.
+  void measure(const NearBodies<D>& near);
+
   bool isEmpty(const Index<D>& cell) const { return cells_.isEmpty(cell); }
   /// Whether the lower (0) or upper (1) face of a cell is on a side of the grid.
   bool isAtSide(const Index<D>& cell, int axis, int side) const {
@@ -69,6 +73,7 @@ class FreeSpace {
   double aperture(const Index<D>& cell, int axis, int side) const {
     if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : roomOf(cells_.free[cell]);
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
+    if (measured_.contains(above)) return open_[axis][offsetIn<D>(measured_, above)];
     if (isEmpty(below) || isEmpty(above)) return 0;
     return openShare(cells_.coverage[above][axis], roomOf(cells_.free[below]), roomOf(cells_.free[above]), thin_walls_);
   }
@@ -101,9 +106,14 @@ class FreeSpace {
   Vec<D> normal(const Index<D>& cell) const {
     Vec<D> gradient = Vec<D>::Zero();
     Box around{{}, Index3::filled(1)};
-    for (int d = 0; d < D; ++d) around.upper[d] = 3;
+    bool isInside = true;
+    for (int d = 0; d < D; ++d) {
+      around.upper[d] = 3;
+      isInside &= !isAtSide(cell, d, 0) && !isAtSide(cell, d, 1);
+    }
     forEach<D>(around, [&](const Index<D>& at) {
-      const double filled = 1 - cells_.free[onGrid(cell + at - Index<D>::filled(1))];
+      const Index<D> beside = cell + at - Index<D>::filled(1);
+      const double filled = 1 - cells_.free[isInside ? beside : onGrid(beside)];
       for (int d = 0; d < D; ++d) {
         if (at[d] == 1) continue;
         double weight = at[d] == 0 ? -1 : 1;
@@ -119,9 +129,50 @@ class FreeSpace {
  private:
   bool isWhole(const Index<D>& cell) const { return !(cells_.free[cell] < 1) && cells_.held.density[cell] > 0; }
 
+  /// Stands for the room in a cell without gas.
+  static constexpr double closed = -1;
+
   const Level* level_;
   bool thin_walls_;
   GasInCells<D> cells_;
+  Box measured_;  ///< the cells whose lower faces are measured
+  /// The open fractions of these faces along each axis.
+  std::array<std::vector<double, euler::Unfilled<double>>, D> open_;
 };
+
+template <int D>
+void FreeSpace<D>::measure(const NearBodies<D>& near) {
+  Box known = cells_.free.box().intersect(cells_.held.density.box());
+  for (int d = 0; d < D; ++d) ++known.lower[d];
+  measured_ = known.intersect(near.rows());
+  if (measured_.empty()) return;
+  Box around = measured_;
+  for (int d = 0; d < D; ++d) --around.lower[d];
+  std::vector<double, euler::Unfilled<double>> rooms(around.size());
+  forEachRow<D>(around, [&](const Index<D>& first, int count) {
+    const double *free = &cells_.free[first], *mass = &cells_.held.density[first];
+    double* room = &rooms[offsetIn<D>(around, first)];
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      const double open = free[i] < leastFreeVolume ? closed : roomOf(free[i]);
+      room[i] = mass[i] > 0 ? open : closed;
+    }
+  });
+  for (auto& ofAxis : open_) ofAxis.resize(measured_.size());
+  forEachRow<D>(measured_, [&](const Index<D>& first, int count) {
+    const double* covered = cells_.coverage[first].data();
+    const double* above = &rooms[offsetIn<D>(around, first)];
+    for (int d = 0; d < D; ++d) {
+      double* open = &open_[d][offsetIn<D>(measured_, first)];
+      const double* below = &rooms[offsetIn<D>(around, first - Index<D>::unit(d))];
+      const bool thin = thin_walls_;
+#pragma GCC ivdep
+      for (int i = 0; i < count; ++i) {
+        const double share = openShare(covered[i * D + d], below[i], above[i], thin);
+        open[i] = std::min(below[i], above[i]) < 0 ? 0.0 : share;
+      }
+    }
+  });
+}
 
 }  // namespace tushar::mpmice

@@ -80,6 +80,23 @@ class CellMarks {
       }
     });
   }
+  /// The part of a box, along the first axis, that contains all its marks; empty if there are none.
+  Box withMarks(const Box& box) const {
+    Box part = box;
+    part.lower[0] = box.upper[0];
+    part.upper[0] = box.lower[0];
+    forEachRow<D>(box, [&](const Index<D>& first, int count) {
+      const std::uint8_t* marks = row(first);
+      const void* lowest = std::memchr(marks, 1, count);
+      if (!lowest) return;
+      int last = count - 1;
+      while (!marks[last]) --last;
+      const auto skipped = static_cast<int>(static_cast<const std::uint8_t*>(lowest) - marks);
+      part.lower[0] = std::min(part.lower[0], first[0] + skipped);
+      part.upper[0] = std::max(part.upper[0], first[0] + last + 1);
+    });
+    return part.lower[0] < part.upper[0] ? part : Box{};
+  }
   bool anyIn(const Box& box) const {
     bool any = false;
     forEachRow<D>(box,
@@ -199,15 +216,20 @@ class NearBodies {
     rows_ = cells.rowsWithBodies<D>(near_.box(), layers, true);
     if (rows_.empty()) return;
     cells.markBodies(near_, rows_);
+    const Box bodies = near_.withMarks(rows_);
+    rows_.lower[0] = std::max(rows_.lower[0], bodies.lower[0] - layers);
+    rows_.upper[0] = std::min(rows_.upper[0], bodies.upper[0] + layers);
     near_.spread(layers, rows_);
     cells.markAroundGas(acting_, layers, rows_);
     acting_.keepOnly(near_, rows_);
   }
 
   bool hasAny() const { return !rows_.empty(); }
-  /// The rows in which there may be cells near bodies, including some around the box.
+  /// The part of the box, and of what is around it, in which there may be cells near bodies.
   const Box& rows() const { return rows_; }
   bool operator()(const Index<D>& cell) const { return near_(cell); }
+  /// The marks of cells in a row.
+  const std::uint8_t* row(const Index<D>& first) const { return near_.row(first); }
   /// Whether forEachActingIn visits a cell.
   bool acts(const Index<D>& cell) const { return acting_(cell); }
   /// Calls `visit(cell)` for the cells of a box that are near a body.

@@ -48,6 +48,9 @@ class WallExchange {
         nodes_(level, records),
         dt_(dt) {}
 
+  /// Measures the open fractions of all faces near bodies at once.
+  void measure(const NearBodies<D>& near) { space_.measure(near); }
+
   const Level& level() const { return level_; }
   const euler::Gas& gas() const { return gas_; }
   /// The rules for ghost states beyond the sides of the grid.

@@ -65,6 +65,22 @@ TYPED_TEST(FreeSpaceAlongAxes, IsAsOpenFromOneSideOfAFaceAsFromTheOther) {
   });
 }
 
+TYPED_TEST(FreeSpaceAlongAxes, IsTheSameIfMeasuredAtOnce) {
+  constexpr int D = TypeParam::value;
+  Cube<D> cube;
+  for (const bool thinWalls : {false, true}) {
+    cube.settings.thinWalls = thinWalls;
+    const GasFields<D> fields = porous<D>(cube.level);
+    const FreeSpace<D> one(cube.level, cube.settings, fields.gas());
+    FreeSpace<D> all = one;
+    all.measure(NearBodies<D>(cube.level.cells(), nearLayers, fields.free.seen(), fields.density.seen()));
+    forEach<D>(cube.level.cells(), [&](const Index<D>& cell) {
+      for (int d = 0; d < D; ++d)
+        for (int side = 0; side < 2; ++side) EXPECT_EQ(all.aperture(cell, d, side), one.aperture(cell, d, side));
+    });
+  }
+}
+
 TYPED_TEST(FreeSpaceAlongAxes, IsClosedBesideEmptyCellsAndOpenWhereNoBodyIs) {
   constexpr int D = TypeParam::value;
   const Cube<D> cube;

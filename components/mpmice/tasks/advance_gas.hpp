@@ -226,7 +226,8 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
                 const OfferedExchange<D>& offered, Sum& power) {
   const euler::Gas& gas = settings.gas.gas;
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
-  const WallExchange<D> exchange(patch.level(), settings, cells, bodies, records, dt);
+  WallExchange<D> exchange(patch.level(), settings, cells, bodies, records, dt);
+  exchange.measure(near);
   requireFinest<D>(patch, near);
   offered.clear();
   const auto advance = [&](const auto& law) {

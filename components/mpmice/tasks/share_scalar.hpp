@@ -11,7 +11,8 @@ void shareScalar(const Patch& patch, const Settings& settings, const Unshared<D>
                  CellView<const double> unshared, CellView<const double> density, CellView<double> held) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { held[cell] = unshared[cell]; });
   const NearBodies<D> near(patch.cells(), shareReach, state.free, state.held.density);
-  const SmallCells<D> small(patch.level(), settings.thinWalls, state);
+  SmallCells<D> small(patch.level(), settings.thinWalls, state);
+  small.findChoices(near, patch.level().clipCells(patch.cells().grown(2, D)));
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     const Index<D> centre = small.targetOf(cell);
     double volume = 0, sum = 0;

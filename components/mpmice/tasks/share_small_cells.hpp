@@ -38,6 +38,28 @@ class SmallCells {
   SmallCells(const Level& level, bool thinWalls, const Unshared<D>& state)
       : level_(level), thin_walls_(thinWalls), state_(state) {}
 
+  /// Finds the choices of the small cells of a box, so that they need not be found again and again; all small cells are
+  /// near bodies. Returns the marks of these cells.
+  CellMarks<D> findChoices(const NearBodies<D>& near, const Box& box) {
+    CellMarks<D> marks(box);
+    const Box rows = box.intersect(near.rows());
+    forEachRow<D>(rows, [&](const Index<D>& first, int count) {
+      std::uint8_t* row = marks.row(first);
+      const double *free = &state_.free[first], *mass = &state_.held.density[first];
+#pragma GCC ivdep
+      for (int i = 0; i < count; ++i) row[i] = static_cast<std::uint8_t>((free[i] < smallFreeVolume) & (mass[i] != 0));
+    });
+    known_ = box;
+    choices_.resize(box.size());
+    marks.forEachIn(rows, [&](const Index<D>& cell) {
+      const Index<D> best = choiceOfSmall(cell);
+      int code = 0;
+      for (int d = D - 1; d >= 0; --d) code = 3 * code + best[d] - cell[d] + 1;
+      choices_[offsetIn<D>(box, cell)] = static_cast<std::uint8_t>(code);
+    });
+    return marks;
+  }
+
   /// The neighbour that receives the gas of a small cell: one with enough free volume, otherwise one that has more free
   /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself.
   Index<D> targetOf(const Index<D>& cell) const {
@@ -79,6 +101,13 @@ class SmallCells {
  private:
   Index<D> choiceOf(const Index<D>& cell) const {
     if (!isSmall(cell)) return cell;
+    if (!known_.contains(cell)) return choiceOfSmall(cell);
+    int code = choices_[offsetIn<D>(known_, cell)];
+    Index<D> chosen = cell;
+    for (int d = 0; d < D; ++d, code /= 3) chosen[d] += code % 3 - 1;
+    return chosen;
+  }
+  Index<D> choiceOfSmall(const Index<D>& cell) const {
     Index<D> best = cell;
     double most = -1;
     forEachAround(cell, [&](const Index<D>& at) {
@@ -119,6 +148,9 @@ class SmallCells {
   const Level& level_;
   bool thin_walls_;
   const Unshared<D>& state_;
+  Box known_;  ///< the cells for which findChoices was called
+  /// The places of the neighbours that the small ones of these cells chose, in base 3.
+  std::vector<std::uint8_t, euler::Unfilled<std::uint8_t>> choices_;
 };
 
 /// Views of the new content of cells: after a step, or at the start of the run.
@@ -266,21 +298,24 @@ void copyUnshared(const Patch& patch, const Unshared<D>& state, const NewGas<D>&
   });
 }
 
-/// Whether a cell has nothing to give, and cannot receive anything when small cells are merged.
+/// Marks the cells of a patch near bodies that have something to give, or can receive something when small cells are
+/// merged.
 template <int D>
-bool isIdle(const Unshared<D>& state, const Index<D>& cell) {
-  return state.held.density[cell] == 0 && state.free[cell] < smallFreeVolume && state.held.totalEnergy[cell] == 0 &&
-         state.held.momentum[cell].isZero(0) && state.held.shares.empty();
-}
-
-/// Marks the small cells of a patch and the cells around them: only these exchange anything.
-template <int D>
-CellMarks<D> markAroundSmall(const Patch& patch, const NearBodies<D>& near, const SmallCells<D>& small) {
-  CellMarks<D> marks(patch.cells().grown(1, D));
-  near.forEachIn(patch.level().clipCells(marks.box()), [&](const Index<D>& cell) {
-    if (small.isSmall(cell)) *marks.row(cell) = 1;
+CellMarks<D> markBusy(const Patch& patch, const NearBodies<D>& near, const Unshared<D>& state) {
+  CellMarks<D> marks(patch.cells());
+  forEachRow<D>(near.rows().intersect(patch.cells()), [&](const Index<D>& first, int count) {
+    std::uint8_t* row = marks.row(first);
+    const std::uint8_t* isNear = near.row(first);
+    const double *free = &state.free[first], *mass = &state.held.density[first];
+    const double *energy = &state.held.totalEnergy[first], *momentum = state.held.momentum[first].data();
+    const std::uint8_t all = state.held.shares.empty() ? 0 : 1;
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      bool any = (mass[i] != 0) | !(free[i] < smallFreeVolume) | (energy[i] != 0);
+      for (int d = 0; d < D; ++d) any |= momentum[i * D + d] != 0;
+      row[i] = static_cast<std::uint8_t>(isNear[i] & (all | any));
+    }
   });
-  marks.spread(1, near.rows().intersect(marks.box()));
   return marks;
 }
 
@@ -294,10 +329,12 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
   if (level.domain().refinement.levels > 1 && !fresh.held.shares.empty() && !areBlended(settings))
     euler::closeShares<D>(patch, settings.gases, fresh.held.shares);
   const NearBodies<D> near(patch.cells(), shareReach, state.free, state.held.density);
-  const SmallCells<D> small(level, settings.thinWalls, state);
-  const CellMarks<D> exchanging = markAroundSmall<D>(patch, near, small);
-  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    if (isIdle<D>(state, cell)) return;
+  SmallCells<D> small(level, settings.thinWalls, state);
+  // Only small cells and the cells around them exchange anything.
+  CellMarks<D> exchanging = small.findChoices(near, level.clipCells(patch.cells().grown(2, D)));
+  exchanging.spread(1, near.rows().intersect(exchanging.box()));
+  const CellMarks<D> busy = markBusy<D>(patch, near, state);
+  busy.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     if (exchanging(cell)) {
       const Index<D> centre = small.targetOf(cell);
       // A full cell may have a mass of round-off, and give it away.
@@ -313,8 +350,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     emptyIfNothingLeft<D>(small, state, cell, fresh.held);
   });
   totals.leastFree.add(1);
-  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    if (isIdle<D>(state, cell)) return;
+  busy.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     const double free = fresh.free[cell];
     checkGas<D>(level, lawAt<D>(settings, fresh.held, free, cell), cell, fresh);
     if (!(free < leastFreeVolume) && fresh.held.density[cell] > 0) totals.leastFree.add(free);

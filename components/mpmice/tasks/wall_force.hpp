@@ -80,7 +80,8 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   walls.below.fill(Vec<D>::Zero());
   walls.above.fill(Vec<D>::Zero());
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
-  const FreeSpace<D> space(level, settings, cells);
+  FreeSpace<D> space(level, settings, cells);
+  space.measure(near);
   const BodiesAtNodes<D> bodies(level, records);
   near.forEachActingIn(patch.cells(), [&](const Index<D>& cell) {
     if (space.isEmpty(cell) || space.isOpenAround(cell)) return;
@@ -184,11 +185,12 @@ void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, 
                   const std::vector<NodeView<Vec<D>>>& forces) {
   const Level& level = patch.level();
   for (const auto& force : forces) force.fill(Vec<D>::Zero());
-  const FreeSpace<D> space(level, settings, cells);
   const BodiesAtNodes<D> bodies(level, records);
   Box around = patch.cells().grown(1, D);
   for (int d = 0; d < D; ++d) ++around.upper[d];
   const NearBodies<D> near(around, nearLayers, cells.free, cells.held.density);
+  FreeSpace<D> space(level, settings, cells);
+  space.measure(near);
   const auto addAt = [&](const Index<D>& cell, int axis) {
     if (!walls.friction && space.isOpen(cell, axis)) return;
     Vec<D> force = Vec<D>::Zero();
