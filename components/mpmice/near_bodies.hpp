@@ -13,10 +13,10 @@ inline constexpr int nearLayers = 2;
 
 /// The index of a cell in a box, row by row.
 template <int D>
-std::size_t offsetIn(const Box& box, const Index<D>& cell) {
-  Index3 wide{};
-  for (int d = 0; d < D; ++d) wide[d] = cell[d];
-  return box.offset(wide);
+[[gnu::always_inline]] inline std::size_t offsetIn(const Box& box, const Index<D>& cell) {
+  std::ptrdiff_t offset = cell[D - 1] - box.lower[D - 1];
+  for (int d = D - 2; d >= 0; --d) offset = offset * box.extent(d) + (cell[d] - box.lower[d]);
+  return static_cast<std::size_t>(offset);
 }
 
 /// A truth value for each cell of a box, as one byte, which is 0 or 1.
@@ -134,7 +134,8 @@ class CellMarks {
   }
 
   Box box_;
-  std::vector<std::uint8_t> marks_, spare_;
+  std::vector<std::uint8_t> marks_;
+  std::vector<std::uint8_t, euler::Unfilled<std::uint8_t>> spare_;  ///< copies of marks while these spread
 };
 
 /// The free volumes and the masses of gas in cells, row by row. Both views may end at the sides of the grid; a cell
