@@ -48,8 +48,13 @@ class WallExchange {
         nodes_(level, records),
         dt_(dt) {}
 
-  /// Measures the open fractions of all faces near bodies at once.
-  void measure(const NearBodies<D>& near) { space_.measure(near); }
+  /// Measures the open fractions of all faces near bodies at once, and keeps what follows walls through these faces,
+  /// for tasks that ask for it often.
+  void measure(const NearBodies<D>& near) {
+    space_.measure(near);
+    kept_ = step_.sweptBy.box().intersect(near.rows());
+    for (auto& ofAxis : following_) ofAxis.assign(kept_.size(), unknown);
+  }
 
   const Level& level() const { return level_; }
   const euler::Gas& gas() const { return gas_; }
@@ -150,6 +155,12 @@ class WallExchange {
   /// swept what it covers. Walls move with the bodies that move through the face; if none does, with the velocity of
   /// the nodes.
   double followingUp(const Index<D>& above, int axis) const {
+    if (!kept_.contains(above)) return findFollowingUp(above, axis);
+    double& kept = following_[static_cast<std::size_t>(axis)][offsetIn<D>(kept_, above)];
+    if (std::isnan(kept)) kept = findFollowingUp(above, axis);
+    return kept;
+  }
+  double findFollowingUp(const Index<D>& above, int axis) const {
     const double covered = std::max(1 - space_.aperture(above, axis, 0), nodes_.coverageAt(above, axis));
     const double by = step_.sweptBy[above][axis];
     const double shift =
@@ -355,6 +366,9 @@ class WallExchange {
   const BodiesInStep<D>& step_;
   BodiesAtNodes<D> nodes_;
   double dt_;
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  Box kept_;  ///< the cells for whose lower faces followingUp keeps its results
+  mutable std::array<std::vector<double>, D> following_;  ///< these results along each axis, or `unknown`
 };
 
 }  // namespace tushar::mpmice
