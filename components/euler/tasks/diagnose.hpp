@@ -26,14 +26,15 @@ void sumMass(const Patch& patch, CellView<const double> density, Sum& mass) {
 /// Computes the momentum in the patch [kg m/s].
 template <int D>
 void sumMomentum(const Patch& patch, CellView<const Vec<D>> momentum, VectorSum& total) {
-  WideSum x(total.x), y(total.y), z(total.z);
   const double volume = patch.level().cellVolume();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const Vec3 wide = volume * patch.level().expandDirection<D>(momentum[cell]);
-    x.add(wide[0]);
-    y.add(wide[1]);
-    z.add(wide[2]);
-  });
+  for (int d = 0; d < D; ++d) {
+    const int axis = patch.level().axis(d);
+    WideSum sum(axis == 0 ? total.x : axis == 1 ? total.y : total.z);
+    forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
+      const double* row = momentum[first].data() + d;
+      sum.addAll(count, [&](int k) { return volume * row[k * D]; });
+    });
+  }
 }
 
 /// Computes the internal and kinetic energy in the patch [J].
@@ -42,14 +43,24 @@ void sumEnergy(const Patch& patch, CellView<const double> totalEnergy, Sum& ener
   sumOverCells<D>(patch, totalEnergy, energy);
 }
 
+/// The square of vector `k` of a row, given the numbers of the row.
+template <int D>
+double squaredNormAt(const double* row, int k) {
+  double sum = 0;
+  for (int d = 0; d < D; ++d) sum += row[k * D + d] * row[k * D + d];
+  return sum;
+}
+
 /// Computes the kinetic energy in the patch [J].
 template <int D>
 void sumKineticEnergy(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
                       Sum& energy) {
   WideSum sum(energy);
   const double half = 0.5 * patch.level().cellVolume();
-  forEach<D>(patch.cells(),
-             [&](const Index<D>& cell) { sum.add(half * momentum[cell].squaredNorm() / density[cell]); });
+  forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
+    const double *m = momentum[first].data(), *rho = &density[first];
+    sum.addAll(count, [&](int k) { return half * squaredNormAt<D>(m, k) / rho[k]; });
+  });
 }
 
 /// Internal energy per volume [J/m³] of a cell: E - rho v² / 2.

@@ -114,8 +114,13 @@ void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& ofGas
   {
     WideSum wide(sum);
     const double half = 0.5 * patch.level().cellVolume();
-    forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-      if (!cells.isEmpty(cell)) wide.add(half * cells.held.momentum[cell].squaredNorm() / cells.held.density[cell]);
+    forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
+      const double *m = cells.held.momentum[first].data(), *mass = &cells.held.density[first];
+      const double* free = &cells.free[first];
+      wide.addAll(count, [&](int k) {
+        const double energy = half * euler::squaredNormAt<D>(m, k) / mass[k], open = mass[k] > 0 ? energy : 0.0;
+        return free[k] < leastFreeVolume ? 0.0 : open;
+      });
     });
   }
   ofGas.merge(sum);
