@@ -42,7 +42,7 @@ Vec<D> centreGradient(const Level& level, int k) {
 /// Sum of `term(k)` over the nodes k of a cell, or over the cells k around a node. Neighbours along the first axis are
 /// added first, then those along the next, so that a mirror image only exchanges the two terms of an addition.
 template <int D, class Term>
-auto sumOverCorners(Term&& term, int k = 0) {
+[[gnu::always_inline]] inline auto sumOverCorners(Term&& term, int k = 0) {
   if constexpr (D == 0) {
     return term(k);
   } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "components/mpm/gas/conserving/rows.hpp"
 
@@ -23,9 +24,9 @@ struct Batch {
   bool isFull;        ///< whether all lanes are in use
   bool isContiguous;  ///< whether the particles are consecutive in memory
 
-  /// Constructs a batch of the particles with the indices `places`; lanes where `takes` is 0 are not in use.
-  Batch(const Index<D>& first, const LaneIntegers& places, const LaneIntegers& takes)
-      : start(first), place(places), used(__builtin_convertvector(takes, Lanes::Mask)), isFull(all(used)) {
+  /// Constructs a batch of the particles with the indices `places`, in the lanes `takes`.
+  [[gnu::always_inline]] Batch(const Index<D>& first, const LaneIntegers& places, const Lanes::Mask& takes)
+      : start(first), place(places), used(takes), isFull(all(used)) {
     for (std::size_t d = 0; d < D; ++d) cell[d] = LaneIntegers{} + first[static_cast<int>(d)];
     cell[0] += ascending();
     if (!isFull) repeat();
@@ -53,22 +54,41 @@ struct Batch {
   }
 };
 
+/// The first particle of each of several consecutive cells, and the end of its particles.
+struct RangesOfCells {
+  LaneIntegers first, last;
+
+  /// `cells` is the number of cells; further lanes have no particles.
+  RangesOfCells(const data::ParticleRange* ranges, int cells) {
+    std::array<data::ParticleRange, Lanes::count> own;
+    static_assert(sizeof(own) == sizeof(Pairs));
+    if (cells < Lanes::count) ranges = std::copy_n(ranges, cells, own.begin()) - cells;
+    Pairs pairs;
+    std::memcpy(&pairs, ranges, sizeof(pairs));
+    take(pairs, std::make_integer_sequence<int, Lanes::count>());
+  }
+
+ private:
+  using Pairs [[gnu::vector_size(2 * sizeof(LaneIntegers))]] = int;
+
+  template <int... Lane>
+  void take(const Pairs& pairs, std::integer_sequence<int, Lane...>) {
+    first = __builtin_shufflevector(pairs, pairs, (2 * Lane)...);
+    last = __builtin_shufflevector(pairs, pairs, (2 * Lane + 1)...);
+  }
+};
+
 /// Calls `visit(batch)` for batches that contain each particle of the cells of a box once.
 template <int D, class T, class Visit>
 [[gnu::always_inline]] inline void forEachBatch(const Box& box, const ParticleView<T>& view, Visit&& visit) {
   forEachRow<D>(box, [&](Index<D> cell, int count) {
-    for (int done = 0; done < count; done += Lanes::count, cell[0] += Lanes::count) {
-      LaneIntegers place{}, end{};
-      int most = 0;
-      Index<D> at = cell;
-      for (int lane = 0; lane < std::min(Lanes::count, count - done); ++lane, ++at[0]) {
-        const data::ParticleRange particles = view.in(at);
-        place[lane] = particles.first;
-        end[lane] = particles.last;
-        most = std::max(most, particles.size());
-      }
-      for (; most > 0; --most, place += 1) {
-        const Batch<D> batch(cell, place, place < end);
+    const data::ParticleRange* ranges = view.set().row(cell);
+    for (int done = 0; done < count; done += Lanes::count, cell[0] += Lanes::count, ranges += Lanes::count) {
+      RangesOfCells particles(ranges, std::min(Lanes::count, count - done));
+      for (;; particles.first += 1) {
+        const auto used = __builtin_convertvector(particles.first < particles.last, Lanes::Mask);
+        if (all(~used)) break;
+        const Batch<D> batch(cell, particles.first, used);
         visit(batch);
       }
     }

@@ -31,7 +31,11 @@ class Differences : public GridFields<D, D + 1> {
       this->at(total, cell) = h * of.trace();
     };
     const Box& cells = gradient.box();
-    forEach<D>(cells, [&](const Index<D>& cell) { set(cell, gradient[cell]); });
+    forEachRowPart<D>(cells, [&](const RowPart<D>& part) {
+      const LanesTensor<D> of = load(gradient, part);
+      for (int d = 0; d < D; ++d) this->writeRow(static_cast<std::size_t>(d), part, h * of(d, d));
+      this->writeRow(total, part, h * of.trace());
+    });
     for (int d = 0; d < D; ++d)
       for (const int side : {0, 1}) {
         if (cells.lower[d] < patch.cells().lower[d] && side == 0) continue;
@@ -45,7 +49,7 @@ class Differences : public GridFields<D, D + 1> {
 
 /// Computes the compression of cells and their neighbours.
 template <int D>
-Compression compressionOf(const Differences<D>& differences, const Index<D>& first) {
+[[gnu::always_inline]] inline Compression compressionOf(const Differences<D>& differences, const Index<D>& first) {
   constexpr std::size_t total = Differences<D>::total;
   Compression result;
   result.difference = differences.readRow(total, first);
@@ -99,18 +103,18 @@ template <int D, class Scheme>
 void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, CellView<const double> mass,
                      CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,
                      CellView<double> pressure, CellView<double> artificial, CellView<double> shock) {
-  const Level& level = patch.level();
+  const double volume = patch.level().cellVolume(), h = patch.level().minSpacing();
   constexpr bool isSmooth = Scheme::transfer == Transfer::affineFlip;
   std::optional<Differences<D>> differences;
   if (isSmooth) differences.emplace(patch, gradient);
   forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
-    const Lanes m = load(mass, cells), p = (gas.gamma - 1) * load(internalEnergy, cells) / level.cellVolume();
-    const Lanes rho = m / level.cellVolume(), c = sqrt(gas.gamma * p / rho);
+    const Lanes m = load(mass, cells), p = (gas.gamma - 1) * load(internalEnergy, cells) / volume;
+    const Lanes rho = m / volume, c = sqrt(gas.gamma * p / rho);
     CellState state;
     if constexpr (isSmooth)
       state = smoothViscosity(p, rho, c, compressionOf<D>(*differences, cells.first), viscosity);
     else
-      state = shockViscosity(p, rho, c, level.minSpacing() * load(gradient, cells).trace(), viscosity);
+      state = shockViscosity(p, rho, c, h * load(gradient, cells).trace(), viscosity);
     const Lanes::Mask holdsGas = m > 0;
     store(select(holdsGas, state.pressure, 0), pressure, cells);
     store(select(holdsGas, state.viscosity, 0), artificial, cells);

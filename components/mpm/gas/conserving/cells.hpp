@@ -9,16 +9,24 @@
 
 namespace tushar::mpm::gas::conserving {
 
+/// The gradients of the shape functions of the nodes of a cell, at its centre [1/m].
+template <int D>
+std::array<Vec<D>, Linear<D>::nodes> centreGradients(const Level& level) {
+  std::array<Vec<D>, Linear<D>::nodes> gradients;
+  for (int k = 0; k < Linear<D>::nodes; ++k) gradients[static_cast<std::size_t>(k)] = centreGradient<D>(level, k);
+  return gradients;
+}
+
 /// Computes dv_j/dx_k at the centre of each cell from the velocities of its nodes [1/s].
 template <int D>
 void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<D>> velocity,
                              CellView<Tensor<D>> gradient) {
-  const Level& level = patch.level();
+  const auto gradients = centreGradients<D>(patch.level());
   forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
-    const LanesTensor<D> sum = sumOverCorners<D>([&](int k) {
+    const LanesTensor<D> sum = sumOverCorners<D>([&](int k) __attribute__((always_inline)) {
       const LanesVec<D> v = load(velocity, cells + Linear<D>::node({}, k));
       LanesTensor<D> share;
-      for (int d = 0; d < D; ++d) share.col(d) = Linear<D>::centreGradient(level, k, d) * v;
+      for (int d = 0; d < D; ++d) share.col(d) = gradients[static_cast<std::size_t>(k)][d] * v;
       return share;
     });
     store(sum, gradient, cells);
@@ -62,30 +70,53 @@ void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pr
                    CellView<const double> artificial, CellView<const Tensor<D>> gradient, double dt,
                    CellView<Tensor<D>> stress);
 
+/// The force of the stresses around a node divided by the volume of a cell [Pa/m]; cells outside `stress.box()` have
+/// none.
+template <int D>
+Vec<D> forceOnNode(const Level& level, const CellView<const Tensor<D>>& stress, const Index<D>& node) {
+  return sumOverCorners<D>([&](int k) -> Vec<D> {
+    const Index<D> cell = node - (Linear<D>::node(node, k) - node);
+    if (!stress.box().contains(cell)) return Vec<D>::Zero();
+    return stress[cell] * centreGradient<D>(level, k);
+  });
+}
+
 /// Computes a_i = sum over the cells c around node i of V_c T_c grad S_i / m_i; a_i is 0 at nodes without mass, and has
 /// no component normal to symmetry planes.
 template <int D>
 void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress, NodeView<const double> mass,
                          NodeView<Vec<D>> acceleration) {
   const Level& level = patch.level();
-  forEach<D>(patch.nodes(), [&](const Index<D>& node) {
-    const Vec<D> force = sumOverCorners<D>([&](int k) -> Vec<D> {
-      const Index<D> cell = node - (Linear<D>::node(node, k) - node);
-      if (!stress.box().contains(cell)) return Vec<D>::Zero();
-      return stress[cell] * centreGradient<D>(level, k);
-    });
+  const auto atNode = [&](const Index<D>& node) {
     if (mass[node] > 0)
-      acceleration[node] = level.cellVolume() / mass[node] * force;
+      acceleration[node] = level.cellVolume() / mass[node] * forceOnNode<D>(level, stress, node);
     else
       acceleration[node].setZero();
-  });
+  };
+  if constexpr (D == 1) {
+    const double perWidth = centreGradient<D>(level, 1)[0];
+    const auto inside = [&](const RowPart<D>& nodes) {
+      const LanesTensor<D> above = load(stress, nodes), below = load(stress, nodes + Index<D>{{-1}});
+      const Lanes m = load(mass, nodes), force = above(0, 0) * -perWidth + below(0, 0) * perWidth;
+      store(LanesVec<D>(select(m > 0, level.cellVolume() / m * force, 0)), acceleration, nodes);
+    };
+    forEachNodeOf<D>(patch.nodes(), stress.box(), inside, atNode);
+  } else {
+    forEach<D>(patch.nodes(), atNode);
+  }
   stopAtSymmetryPlanes<D>(patch, acceleration);
 }
 
 /// Computes beta_i, the largest shock sensor of the cells around a node.
 template <int D>
 void computeRelaxation(const Patch& patch, const Gas&, CellView<const double> shock, NodeView<double> relaxation) {
-  forEach<D>(patch.nodes(), [&](const Index<D>& node) {
+  const auto inside = [&](const RowPart<D>& nodes) {
+    Lanes greatest = 0;
+    for (int k = 0; k < Linear<D>::nodes; ++k)
+      greatest = max(greatest, load(shock, nodes + (Index<D>{} - Linear<D>::node({}, k))));
+    store(greatest, relaxation, nodes);
+  };
+  forEachNodeOf<D>(patch.nodes(), shock.box(), inside, [&](const Index<D>& node) {
     double greatest = 0;
     for (int k = 0; k < Linear<D>::nodes; ++k) {
       const Index<D> cell = node - (Linear<D>::node(node, k) - node);

@@ -8,6 +8,7 @@
 #include "components/mpm/gas/conserving/redistribute.hpp"
 #include "components/mpm/gas/conserving/stable_time_step.hpp"
 #include "components/mpm/gas/conserving/transfer.hpp"
+#include "components/mpm/gas/conserving/update_particles.hpp"
 #include "components/mpm/gas/tasks/diagnose.hpp"
 #include "components/mpm/gas/tasks/measure_error.hpp"
 #include "components/mpm/gas/tasks/relax_energy.hpp"

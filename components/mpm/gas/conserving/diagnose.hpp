@@ -91,7 +91,6 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
     });
     momentum.add(footprint, brought);
   });
-  momentum.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double m = cellMass[cell], inverse = m > 0 ? 1 / m : 0;
     for (std::size_t d = 0; d < D; ++d) cellVelocity[cell][static_cast<int>(d)] = inverse * momentum.at(d, cell);

@@ -1,124 +1,19 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-
-#include "components/mpm/gas/conserving/batch.hpp"
-#include "components/mpm/gas/conserving/modes.hpp"
-#include "components/mpm/gas/mirror_symmetry.hpp"
+#include "components/mpm/gas/conserving/span.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// The cells and nodes of a line that intervals overlap, one interval per lane.
-///
-/// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the
-/// fractions of the interval in each cell. An end nearer to a node than 1e-12 h is moved onto it. Nodes and cells
-/// outside an interval have weight and part 0; anything beyond `Overhang` cells is assigned to the outermost cell.
-///
-/// All distances are measured from the centre of the cell that contains the interval's centre, so that the mirror image
-/// of an interval has bitwise mirrored values.
-template <int Overhang>
-struct Span {
-  static constexpr int most = 2 * Overhang + 1;  ///< largest number of cells overlapped in one batch
+/// The positions of the cells of a grid.
+template <int D>
+struct CellsOf {
+  std::array<CellsAlong, D> along;
 
-  LaneIntegers first;                  ///< index of the first cell, and of the node below it
-  int below = 0;                       ///< number of overlapped cells below that of the centre, over all intervals
-  int cells = 1;                       ///< number of overlapped cells, over all intervals
-  std::array<Lanes, most> part;        ///< fractions of the interval in each cell; their sum is 1
-  std::array<Lanes, most + 1> weight;  ///< weights of the nodes; their sum is 1
-  std::array<Lanes, most + 1> arm;     ///< distances of the nodes from the centre [m]
-  std::array<Lanes, most + 1> atLower, atUpper;  ///< weights of the nodes in the values at the ends
-  Lanes inertia;                                 ///< sum of weight times arm² [m²]
-  Lanes lower, upper;                            ///< ends of the interval [m]
-
-  /// Constructs intervals along kernel axis `d`; `cell` is the cell of the centre. They are cut off at the boundary of
-  /// the grid.
-  Span(const Level& level, int d, const LaneIntegers& cell, const Lanes& centre, const Lanes& length) {
-    const double h = level.spacing(d), inverse = level.inverseSpacing(d), last = level.cells().upper[d] - 1;
-    const Lanes number = widen(cell), origin = middleOf(level, d) + h * fromMiddle(level, d, number);
-    const Lanes middle = inverse * (centre - origin), half = 0.5 * inverse * length;
-    Lanes from = snap(middle - half), to = snap(middle + half);
-    if (!level.isPeriodic(d)) {
-      from = max(from, -0.5 - number);
-      to = min(to, last + 0.5 - number);
-    }
-    while (below < Overhang && any(from < -0.5 - below)) ++below;
-    cells = below + 1;
-    while (cells < below + 1 + Overhang && any(to > cells - below - 0.5)) ++cells;
-    first = cell - below;
-    lower = origin + from * h;
-    upper = origin + to * h;
-    distribute(from, to);
-    measureArms(origin - 0.5 * (lower + upper), h);
-  }
-
-  int nodes() const { return cells + 1; }
-  Lanes length() const { return upper - lower; }
-  /// Ends and middle of the interval's part in the k-th cell [m].
-  Lanes lowerOf(int k) const { return max(lower, centre() + arm[k]); }
-  Lanes upperOf(int k) const { return min(upper, centre() + arm[k + 1]); }
-  Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
-
-  /// Sum over the nodes; `add(k, sum)` adds the term of node k. The nodes on either side of the middle are summed
-  /// separately, from the inside out, so that the mirror image has the same sum.
-  template <class Sum, class Add>
-  [[gnu::always_inline]] Sum sumOverNodes(Add&& add) const {
-    Sum lowerSide{}, upperSide{};
-    for (int k = below; k >= 0; --k) add(k, lowerSide);
-    for (int k = below + 1; k < nodes(); ++k) add(k, upperSide);
-    lowerSide += upperSide;
-    return lowerSide;
-  }
-  /// Sum over the cells, in the mirror-symmetric order of sumOverNodes; the term of the centre's cell is added last.
-  template <class Add>
-  [[gnu::always_inline]] Lanes sumOverCells(Add&& add) const {
-    Lanes lowerSide = 0, upperSide = 0;
-    for (int k = below - 1; k >= 0; --k) add(k, lowerSide);
-    for (int k = below + 1; k < cells; ++k) add(k, upperSide);
-    lowerSide += upperSide;
-    add(below, lowerSide);
-    return lowerSide;
-  }
+  CellsOf(const Level& level) : CellsOf(level, std::make_index_sequence<D>()) {}
 
  private:
-  Lanes centre() const { return 0.5 * (lower + upper); }
-  static Lanes snap(const Lanes& x) {
-    const Lanes node = nearbyint(x - 0.5) + 0.5;
-    return select(abs(x - node) < 1e-12, node, x);
-  }
-  /// Computes parts and weights of the interval from `from` to `to`, measured in cells from the middle of the cell that
-  /// contains the interval's centre.
-  void distribute(const Lanes& from, const Lanes& to) {
-    const Lanes scale = 1 / (to - from);
-    Lanes start = -0.5 - below, end = start, carried = 0;
-    for (int k = 0; k < cells; ++k) {
-      const std::size_t at = k;
-      const int j = k - below;
-      const Lanes a = j == -Overhang ? min(from, j + 0.5) : clamp(from, j - 0.5, j + 0.5);
-      const Lanes b = j == Overhang ? max(to, j - 0.5) : clamp(to, j - 0.5, j + 0.5);
-      const Lanes share = (b - a) * scale, half = 0.5 * share, lean = half * ((a + b) - 2 * j);
-      part[at] = share;
-      weight[at] = carried + (half - lean);
-      atLower[at] = (start - a) + 1;
-      atUpper[at] = (end - b) + 1;
-      carried = half + lean;
-      start = a;
-      end = b;
-    }
-    const std::size_t last = cells;
-    const double edge = cells - below - 0.5;
-    weight[last] = carried;
-    atLower[last] = (start - edge) + 1;
-    atUpper[last] = (end - edge) + 1;
-  }
-  /// Computes the arms; `offset` is the distance of the cell's centre from that of the interval.
-  void measureArms(const Lanes& offset, double h) {
-    inertia = sumOverNodes<Lanes>([&](int k, Lanes& sum) {
-      const std::size_t at = k;
-      arm[at] = offset + (k - below - 0.5) * h;
-      sum += weight[at] * arm[at] * arm[at];
-    });
-  }
+  template <std::size_t... Axis>
+  CellsOf(const Level& level, std::index_sequence<Axis...>) : along{{{level, static_cast<int>(Axis)}...}} {}
 };
 
 /// The cells and nodes that boxes overlap, one box per lane: the product of their spans along the axes.
@@ -137,8 +32,8 @@ struct Footprint {
   std::array<Span<overhang>, D> along;
   Index<D> start;  ///< cell of the first lane
 
-  Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges)
-      : Footprint(level, batch, centre, edges, std::make_index_sequence<D>()) {}
+  Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges)
+      : Footprint(grid, batch, centre, edges, std::make_index_sequence<D>()) {}
 
   LanesVec<D> inertia() const {
     LanesVec<D> all;
@@ -166,6 +61,28 @@ struct Footprint {
     Index<D> k;
     parts<D - 1>(k, Lanes(1), visit);
   }
+  /// Calls `visit(k, part)` for each row of cells along the first axis: `k` is its first cell, `part` the product of
+  /// the parts along the other axes.
+  template <class Visit>
+  [[gnu::always_inline]] void forEachRowOfCells(Visit&& visit) const {
+    Index<D> k;
+    rowsOfCells<D - 1>(k, Lanes(1), visit);
+  }
+  /// Sum of `ofRow(k, part)` over the rows of forEachRowOfCells, in the order of sumOverParts.
+  template <class OfRow>
+  [[gnu::always_inline]] Lanes sumOverRowsOfCells(OfRow&& ofRow) const {
+    Index<D> k;
+    return sumOfRows<D - 1>(k, Lanes(1), ofRow);
+  }
+  /// Calls `visit(extent)` with the extent of the footprint along an axis, as constants (see Extent).
+  template <int Axis, class Visit>
+  [[gnu::always_inline]] void withExtentAlong(Visit&& visit) const {
+    withExtent<overhang>(along[Axis].below, along[Axis].cells - 1 - along[Axis].below, visit);
+  }
+  template <class Visit>
+  [[gnu::always_inline]] void withExtentOfRows(Visit&& visit) const {
+    withExtentAlong<0>(visit);
+  }
   /// Coefficients f_a of a multilinear field about the centre of a box, the sum of f_a phi_a (see Modes). `Axis` is the
   /// last axis on which the field depends.
   template <int Axis>
@@ -177,12 +94,20 @@ struct Footprint {
     Index<D> k;
     weights<D - 1>(k, Lanes(1), field, visit);
   }
+  /// Calls `visit(k, w, field)` for each row of nodes along the first axis: `k` is its first node, `w` the product of
+  /// the weights along the other axes, `field` the field along the row.
+  template <class Visit>
+  [[gnu::always_inline]] void forEachRowOfNodes(const Field<D - 1>& field, Visit&& visit) const {
+    Index<D> k;
+    rowsOfNodes<D - 1>(k, Lanes(1), field, visit);
+  }
   /// The field in a plane perpendicular to the last axis on which it depends, at the distance `arm` from the centre.
   template <int Axis>
-  static Field<Axis - 1> slice(const Field<Axis>& field, const Lanes& arm) {
+  [[gnu::always_inline]] static Field<Axis - 1> slice(const Field<Axis>& field, const Lanes& arm) {
     constexpr std::size_t half = std::size_t{1} << Axis;
     Field<Axis - 1> result;
-    for (std::size_t a = 0; a < half; ++a) result[a] = field[a] + arm * field[a + half];
+    for (std::size_t a = 0; a < half; ++a)
+      for (int d = 0; d < D; ++d) result[a][d] = field[a][d] + arm * field[a + half][d];
     return result;
   }
 
@@ -200,9 +125,9 @@ struct Footprint {
 
  private:
   template <std::size_t... Axis>
-  Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
+  Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
             std::index_sequence<Axis...>)
-      : along{{{level, static_cast<int>(Axis), batch.cell[Axis], centre[Axis], edges[Axis]}...}}, start(batch.start) {}
+      : along{{{grid.along[Axis], batch.cell[Axis], centre[Axis], edges[Axis]}...}}, start(batch.start) {}
 
   template <int Axis, class Value>
   Lanes sumAlong(Index<D>& k, const Lanes& part, Value& value) const {
@@ -215,6 +140,45 @@ struct Footprint {
       else
         sum += sumAlong<Axis - 1>(k, share, value);
     });
+  }
+
+  template <int Axis, class OfRow>
+  [[gnu::always_inline]] Lanes sumOfRows(Index<D>& k, const Lanes& part, OfRow& ofRow) const {
+    if constexpr (Axis == 0) {
+      k[0] = 0;
+      return ofRow(k, part);
+    } else {
+      const auto& span = along[Axis];
+      return span.sumOverCells([&](int at, Lanes& sum) __attribute__((always_inline)) {
+        k[Axis] = at;
+        sum += sumOfRows<Axis - 1>(k, part * span.part[static_cast<std::size_t>(at)], ofRow);
+      });
+    }
+  }
+  template <int Axis, class Visit>
+  [[gnu::always_inline]] void rowsOfCells(Index<D>& k, const Lanes& part, Visit& visit) const {
+    if constexpr (Axis == 0) {
+      k[0] = 0;
+      visit(k, part);
+    } else {
+      const auto& span = along[Axis];
+      for (k[Axis] = 0; k[Axis] < span.cells; ++k[Axis])
+        rowsOfCells<Axis - 1>(k, part * span.part[static_cast<std::size_t>(k[Axis])], visit);
+    }
+  }
+  template <int Axis, class Visit>
+  [[gnu::always_inline]] void rowsOfNodes(Index<D>& k, const Lanes& weight, const Field<Axis>& field,
+                                          Visit& visit) const {
+    if constexpr (Axis == 0) {
+      k[0] = 0;
+      visit(k, weight, field);
+    } else {
+      const auto& span = along[Axis];
+      for (k[Axis] = 0; k[Axis] < span.nodes(); ++k[Axis]) {
+        const std::size_t at = static_cast<std::size_t>(k[Axis]);
+        rowsOfNodes<Axis - 1>(k, weight * span.weight[at], slice<Axis>(field, span.arm[at]), visit);
+      }
+    }
   }
 
   template <int Axis, class Visit>
@@ -242,5 +206,14 @@ struct Footprint {
     }
   }
 };
+
+/// The velocities in the boxes of particles, as multilinear fields about the centres of the boxes.
+template <int D>
+typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity, const LanesModes<D>& modes) {
+  typename Footprint<D>::template Field<D - 1> field;
+  field[0] = velocity;
+  for (std::size_t a = 1; a < field.size(); ++a) field[a] = modes.col(static_cast<int>(a) - 1);
+  return field;
+}
 
 }  // namespace tushar::mpm::gas::conserving

@@ -25,13 +25,26 @@ class GridFields {
     forEach<D>(from.box(), [&](const Index<D>& index) { at(field, index) = from[index]; });
   }
 
+  /// Stores a field at nodes or cells of a row. Lanes beyond the end of the part are stored, too: behind a row is space
+  /// that nothing else uses, or the start of a row that is stored later.
+  void writeRow(std::size_t field, const RowPart<D>& part, const Lanes& values) {
+    values.copyTo(&at(field, part.first));
+  }
   /// Reads a field at a node or cell and its neighbours along the first axis.
   Lanes readRow(std::size_t field, const Index<D>& index) const { return Lanes::at(&at(field, index)); }
+  /// The address of the value of the first field at a node or cell. Each further field is size() numbers behind.
+  const double* addressOf(const Index<D>& index) const { return values_.data() + place(index); }
+  std::size_t size() const { return size_; }
+  /// How far apart in memory two nodes or cells are that differ by `by` along all axes but the first.
+  std::ptrdiff_t distance(const Index<D>& by) const {
+    std::ptrdiff_t sum = 0;
+    for (int d = 1; d < D; ++d) sum += std::ptrdiff_t{by[d]} * stride_[d];
+    return sum;
+  }
 
  protected:
   /// Pointer to the values of a field, for derived classes that add to them.
   double* values(std::size_t field) { return values_.data() + field * size_; }
-  std::size_t size() const { return size_; }
   int stride(int axis) const { return stride_[axis]; }
   std::size_t place(const Index<D>& index) const {
     int place = index[0] - box_.lower[0];

@@ -13,15 +13,28 @@ template <int D>
 void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const Vec<D>> edges,
                 ParticleView<const double> heat, ParticleView<const double> affineEnergy,
                 ParticleView<Modes<D>> modes) {
-  for (int p = 0; p < edges.owned(); ++p) {
-    Vec<D> inertia;
+  const auto inertiaOf = [&](const auto& size) {
+    std::remove_cvref_t<decltype(size)> inertia;
     for (int d = 0; d < D; ++d) {
       const double h = patch.level().spacing(d);
-      inertia[d] = edges[p][d] * edges[p][d] / 12 + h * h / 4;
+      inertia[d] = size[d] * size[d] / 12 + h * h / 4;
     }
-    const double energy = modalEnergy<D>(modes[p], inertia), most = affineEnergy[p] + spare * heat[p];
+    return inertia;
+  };
+  const auto limit = [&](int p) {
+    const double energy = modalEnergy<D>(modes[p], inertiaOf(edges[p])), most = affineEnergy[p] + spare * heat[p];
     if (energy > most) modes[p] *= std::sqrt(most / energy);
+  };
+  int p = 0;
+  for (; p + Lanes::count <= edges.owned(); p += Lanes::count) {
+    const auto u = columnsOf<D * ((1 << D) - 1)>([&](int lane) { return modes[p + lane].data(); });
+    const LanesVec<D> size = matrixOf<D, 1>(unpack<D>(edges[p].data()));
+    const Lanes energy = modalEnergy<D>(matrixOf<D, (1 << D) - 1>(u), inertiaOf(size));
+    const Lanes most = Lanes::at(&affineEnergy[p]) + spare * Lanes::at(&heat[p]);
+    if (any(energy > 0.999 * most))  // rarely
+      for (int lane = 0; lane < Lanes::count; ++lane) limit(p + lane);
   }
+  for (; p < edges.owned(); ++p) limit(p);
 }
 
 /// Halves particles longer than `longestInCells` cells along an axis: the children lie a quarter of the length L on
@@ -85,7 +98,6 @@ void gatherInCells(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
     });
     sums.add(footprint, parts);
   });
-  sums.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     cellMass[cell] = sums.at(0, cell);
     cellEnergy[cell] = sums.at(1, cell);

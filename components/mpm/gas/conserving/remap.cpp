@@ -254,7 +254,6 @@ void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> ma
   contents.copy(1, energy);
   typename CellSums<D>::Fields sums(old.x.cells());
   forEachBatch<D>(old.x.cells(), old.x, [&](const Batch<D>& batch) { cut<D>(level, batch, old, contents, sums); });
-  sums.finish();
   forEach<D>(patch.cells(), [&](Index<D> cell) {
     if ((cell[0] - patch.cells().lower[0]) % Lanes::count != 0) return;
     const Contained<D> contained(sums, cell);

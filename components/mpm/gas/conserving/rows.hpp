@@ -57,6 +57,22 @@ template <int D, class Visit>
   });
 }
 
+/// Visits the nodes of a box: `inside(part)` row by row those whose cells are all in `cells`, `atRim(node)` each other
+/// node.
+template <int D, class Inside, class AtRim>
+[[gnu::always_inline]] inline void forEachNodeOf(const Box& nodes, const Box& cells, Inside&& inside, AtRim&& atRim) {
+  forEachRow<D>(nodes, [&](Index<D> node, int count) {
+    bool isInside = true;
+    for (int d = 1; d < D; ++d) isInside = isInside && node[d] > cells.lower[d] && node[d] < cells.upper[d];
+    const int end = node[0] + count;
+    const int first = isInside ? std::min(std::max(node[0], cells.lower[0] + 1), end) : end;
+    const int last = isInside ? std::max(std::min(end, cells.upper[0]), first) : end;
+    for (; node[0] < first; ++node[0]) atRim(std::as_const(node));
+    for (; node[0] < last; node[0] += Lanes::count) inside(RowPart<D>{node, std::min(last - node[0], Lanes::count)});
+    for (node[0] = last; node[0] < end; ++node[0]) atRim(std::as_const(node));
+  });
+}
+
 template <int D, data::Centring C>
 [[gnu::always_inline]] inline Lanes load(const data::GridView<C, const double>& view, const RowPart<D>& part) {
   if (part.isFull()) return Lanes::at(&view[part.first]);

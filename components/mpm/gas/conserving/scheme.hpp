@@ -33,13 +33,20 @@ struct ConservingGasDynamics {
 /// Properties of apic, as compile-time constants.
 struct Apic {
   static constexpr Transfer transfer = Transfer::apic;
+  static constexpr bool relaxes = true;       ///< whether particles lose velocity relative to the grid
   static constexpr double faceTime = 1.0;     ///< faces move with velocity v + faceTime dt a
   static constexpr double spareEnergy = 0.5;  ///< fraction of e that may compensate for a lack of kinetic energy
 };
 struct AffineFlip {
   static constexpr Transfer transfer = Transfer::affineFlip;
+  static constexpr bool relaxes = true;
   static constexpr double faceTime = 0.5;
   static constexpr double spareEnergy = 0.25;
+};
+/// affineFlip where no node is at a shock, so that beta is 0: a shorter formula with the same result.
+template <class Scheme>
+struct Smooth : Scheme {
+  static constexpr bool relaxes = false;
 };
 
 }  // namespace tushar::mpm::gas::conserving

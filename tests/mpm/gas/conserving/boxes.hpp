@@ -5,6 +5,7 @@
 #include "components/mpm/gas/conserving/cells.hpp"
 #include "components/mpm/gas/conserving/redistribute.hpp"
 #include "components/mpm/gas/conserving/transfer.hpp"
+#include "components/mpm/gas/conserving/update_particles.hpp"
 #include "tests/support/levels.hpp"
 #include "tests/support/particles.hpp"
 
@@ -13,7 +14,7 @@ namespace tushar::mpm::gas::conserving {
 /// A batch with one particle, in the first lane.
 template <int D>
 Batch<D> batchOfOne(const Index<D>& cell) {
-  LaneIntegers takes{};
+  Lanes::Mask takes{};
   takes[0] = -1;
   return Batch<D>(cell, LaneIntegers{}, takes);
 }

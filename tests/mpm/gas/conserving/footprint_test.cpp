@@ -203,8 +203,6 @@ TEST(GridSums, AreTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
       addParts(level, batchOfOne<2>({{lane, row}}), x, size, apart);
     }
   }
-  together.finish();
-  apart.finish();
   forEach<2>(level.cells(), [&](const Index<2>& cell) { EXPECT_EQ(together.at(0, cell), apart.at(0, cell)); });
   EXPECT_GT(together.at(0, {{1, 3}}), 0);
 }
@@ -222,7 +220,6 @@ TEST(GridSums, DoNotDependOnTheOrderOfTheParticles) {
     for (const auto& [x, edges] : boxes) {
       addParts(level, batchOfOne(level.cellOf<2>(x)), x.cast<Lanes>(), edges.cast<Lanes>(), sums);
     }
-    sums.finish();
     std::vector<double> all;
     forEach<2>(level.cells(), [&](const Index<2>& cell) { all.push_back(sums.at(0, cell)); });
     return all;
