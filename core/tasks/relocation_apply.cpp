@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "core/tasks/move_runs.hpp"
@@ -22,6 +23,25 @@ void keepSet(data::Warehouse& warehouse, int material, const Patch& patch) {
   ParticleSet& before = warehouse.particles(Generation::old, material, patch.id());
   before.forgetGhosts();
   std::swap(before, warehouse.particles(Generation::fresh, material, patch.id()));
+}
+
+/// Calls `visit(bytes)` with the size of a value, as a constant if it is one of the most frequent ones (see copyValue).
+template <class Visit>
+void withSize(std::size_t bytes, const Visit& visit) {
+  switch (bytes) {
+    case sizeof(double):
+      return visit(std::integral_constant<std::size_t, sizeof(double)>());
+    case 2 * sizeof(double):
+      return visit(std::integral_constant<std::size_t, 2 * sizeof(double)>());
+    case 3 * sizeof(double):
+      return visit(std::integral_constant<std::size_t, 3 * sizeof(double)>());
+    case 6 * sizeof(double):
+      return visit(std::integral_constant<std::size_t, 6 * sizeof(double)>());
+    case 9 * sizeof(double):
+      return visit(std::integral_constant<std::size_t, 9 * sizeof(double)>());
+    default:
+      return visit(bytes);
+  }
 }
 
 }  // namespace
@@ -200,29 +220,32 @@ void Relocation::carry(const Carried& carried, std::size_t place, Generation to,
 void Relocation::pack(const Move& move, std::size_t place, const PatchMoves& moves) {
   const std::byte* from = move.from + move.before->first[place] * move.bytes;
   std::byte* to = move.packed + moves.packed * move.bytes;
-  for (const int one : moves.departed) {
-    copyValue(from + static_cast<std::size_t>(one) * move.bytes, to, move.bytes);
-    to += move.bytes;
-  }
+  withSize(move.bytes, [&](auto bytes) {
+    for (const int one : moves.departed) {
+      std::memcpy(to, from + static_cast<std::size_t>(one) * bytes, bytes);
+      to += bytes;
+    }
+  });
 }
 
 void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
   const PatchMoves& moves = all.patches[place];
   std::byte* values = move.to + move.after->first[place] * move.bytes;
   moveRuns(moves.runs, move.from + move.before->first[place] * move.bytes, values, move.bytes);
-  for (const Entry& entry : moves.entries) {
-    const int source = moves.incoming[entry.incoming].from;
-    const std::byte* from = nullptr;
-    if (source >= 0) {
-      from = move.packed + (moves.packed + static_cast<std::size_t>(source)) * move.bytes;
-    } else {
-      const Arrival& arrival = moves.arrivals[-1 - source];
-      const std::size_t at = arrival.place;
-      from = arrival.patch < 0 ? move.migrants + at * move.bytes
-                               : move.packed + (of(all, arrival.patch).packed + at) * move.bytes;
+  const std::byte* packed = move.packed + moves.packed * move.bytes;
+  withSize(move.bytes, [&](auto bytes) {
+    for (const Entry& entry : moves.entries) {
+      const int source = moves.incoming[entry.incoming].from;
+      const std::byte* from = packed + static_cast<std::size_t>(source) * bytes;
+      if (source < 0) {
+        const Arrival& arrival = moves.arrivals[-1 - source];
+        const std::size_t at = arrival.place;
+        from = arrival.patch < 0 ? move.migrants + at * bytes
+                                 : move.packed + (of(all, arrival.patch).packed + at) * bytes;
+      }
+      std::memcpy(values + static_cast<std::size_t>(entry.to) * bytes, from, bytes);
     }
-    copyValue(from, values + static_cast<std::size_t>(entry.to) * move.bytes, move.bytes);
-  }
+  });
 }
 
 }  // namespace tushar::tasks

@@ -50,7 +50,7 @@ bool areInside(const Vec<D>* x, int count, const Vec<D>& lower, const Vec<D>& up
 
 /// The cell that contains x along a kernel axis, as Level::cellAlong finds it, but first tries `cell`, which extends
 /// from `lower` to `upper`, and its neighbours.
-int cellNear(const grid::Level& level, int axis, int cell, double lower, double upper, double x) {
+inline int cellNear(const grid::Level& level, int axis, int cell, double lower, double upper, double x) {
   if (x >= lower && x < upper) return cell;
   if (x >= upper && cell + 1 < level.cells().upper[axis] && x < level.nodePosition(axis, cell + 2)) return cell + 1;
   if (x < lower && cell > 0 && x >= level.nodePosition(axis, cell - 1)) return cell - 1;
@@ -80,6 +80,25 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
 }
 
 }  // namespace
+
+/// The bounds of the cells of a row: they share those along all axes but the first.
+template <int D>
+struct BoundsOfRow {
+  const double* nodes;  ///< positions along the first axis, from the lower bound of the first cell on
+  Vec<D> lower, upper;  ///< of a cell; of the row along the other axes
+
+  /// Whether each of as many cells as there are lanes, the first of them number `cell` of the row, contains one
+  /// particle, whose position lies in it; `ranges` are their particles.
+  bool areAllInside(int cell, const ParticleRange* ranges, const Vec<D>* x) const {
+    const int first = ranges[0].first;
+    for (int k = 0; k < Lanes::count; ++k)
+      if (ranges[k].first != first + k || ranges[k].last != first + k + 1) return false;
+    const std::array<Lanes, D> at = tushar::unpack<D>(x[first].data());
+    Lanes::Mask inside = (at[0] >= Lanes::at(nodes + cell)) & (at[0] < Lanes::at(nodes + cell + 1));
+    for (int d = 1; d < D; ++d) inside &= (at[d] >= lower[d]) & (at[d] < upper[d]);
+    return tushar::all(inside);
+  }
+};
 
 void Relocation::forgetLayout() { moves_.clear(); }
 
@@ -161,20 +180,39 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
   moves.losing = {};
   if (set.owned() == 0) return;
   const grid::Level& level = warehouse_->grid().finest();
-  set.forEachOccupiedInline<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
-    Vec<D> lower, upper;
-    for (int d = 0; d < D; ++d) {
-      lower[d] = level.nodePosition(d, cell[d]);
-      upper[d] = level.nodePosition(d, cell[d] + 1);
-    }
-    if (areInside<D>(x + range.first, range.size(), lower, upper)) return;
+  const grid::Box& cells = patch.cells();
+  std::vector<double> nodes;
+  for (int node = cells.lower[0]; node <= cells.upper[0]; ++node) nodes.push_back(level.nodePosition(0, node));
+  BoundsOfRow<D> bounds{.nodes = nodes.data(), .lower = {}, .upper = {}};
+  const auto visitCell = [&](const Index<D>& cell, const ParticleRange& range) {
+    bounds.lower[0] = nodes[static_cast<std::size_t>(cell[0] - cells.lower[0])];
+    bounds.upper[0] = nodes[static_cast<std::size_t>(cell[0] - cells.lower[0]) + 1];
+    if (range.size() > 1 && areInside<D>(x + range.first, range.size(), bounds.lower, bounds.upper)) return;
     for (const int p : range) {
-      if (isInside<D>(x[p], lower, upper)) continue;
+      if (isInside<D>(x[p], bounds.lower, bounds.upper)) continue;
       Index<D> to;
-      for (int d = 0; d < D; ++d) to[d] = cellNear(level, d, cell[d], lower[d], upper[d], x[p][d]);
+      for (int d = 0; d < D; ++d) to[d] = cellNear(level, d, cell[d], bounds.lower[d], bounds.upper[d], x[p][d]);
       if (to == cell) continue;
       moves.departed.push_back(p);
       move<D>(patch, {cell, to}, x[p], ids[p], moves);
+    }
+  };
+  grid::forEach<D>(cells.rowStarts(), [&](Index<D> cell) {
+    for (int d = 1; d < D; ++d) {
+      bounds.lower[d] = level.nodePosition(d, cell[d]);
+      bounds.upper[d] = level.nodePosition(d, cell[d] + 1);
+    }
+    const data::ParticleSet::Span span = set.occupied(cell, cells.upper[0]);
+    cell[0] = span.first;
+    for (const ParticleRange* range = set.row(cell); cell[0] < span.last;) {
+      const int end = std::min(cell[0] + Lanes::count, span.last);
+      const bool isFull = end == cell[0] + Lanes::count;
+      if (isFull && bounds.areAllInside(cell[0] - cells.lower[0], range, x)) {
+        cell[0] = end;
+        range += Lanes::count;
+      } else {
+        for (; cell[0] < end; ++cell[0], ++range) visitCell(cell, *range);
+      }
     }
   });
 }

@@ -37,20 +37,86 @@ void addHalved(const Patch& patch, double longestInCells, const GasBox<D>& piece
   addHalved(patch, longestInCells, half(piece, axis, 1), axis, maker, fresh);
 }
 
+/// Whether particles of a box of cells are longer than `longest` [m] along an axis.
+template <int D>
+bool anyLong(const Box& cells, const ParticleView<const Vec<D>>& edges, const Vec<D>& longest) {
+  Lanes::Mask isLong{};
+  forEachBatch<D>(cells, edges, [&](const Batch<D>& batch) {
+    const LanesVec<D> size = load(edges, batch);
+    for (int d = 0; d < D; ++d) isLong |= size[d] > longest[d];
+  });
+  return any(isLong);
+}
+
+/// Whether any particles in `edges.cells()` are longer than `longest` [m] along an axis. Those of the patch itself are
+/// consecutive in memory.
+template <int D>
+bool anyLong(const Box& own, const ParticleView<const Vec<D>>& edges, const Vec<D>& longest, int owned) {
+  Lanes::Mask isLong{};
+  int p = 0;
+  for (; p + Lanes::count <= owned; p += Lanes::count) {
+    const auto size = unpack<D>(edges[p].data());
+    for (std::size_t d = 0; d < D; ++d) isLong |= size[d] > longest[static_cast<int>(d)];
+  }
+  bool found = any(isLong);
+  for (; p < owned; ++p) found = found || (edges[p].array() > longest.array()).any();
+  Box around = edges.cells();
+  for (int d = D - 1; d >= 0 && !found; --d) {  // the ghosts below and above the patch along d
+    Box below = around, above = around;
+    below.upper[d] = around.lower[d] = own.lower[d];
+    above.lower[d] = around.upper[d] = own.upper[d];
+    found = anyLong<D>(below, edges, longest) || anyLong<D>(above, edges, longest);
+  }
+  return found;
+}
+
+/// Appends the values of particles `first` to `last` - 1.
+template <class T>
+void append(const ParticleView<const T>& from, int first, int last, std::vector<T>& to) {
+  to.insert(to.end(), &from[first], &from[last - 1] + 1);
+}
+
+/// Adds particles that are kept, from `first` up to but excluding `last`, whose cells and ids the maker already has.
+template <int D>
+void addKept(const OldBoxes<D>& old, int first, int last, const NewBoxes<D>& fresh) {
+  if (first == last) return;
+  append(old.x, first, last, fresh.x);
+  append(old.edges, first, last, fresh.edges);
+  append(old.mass, first, last, fresh.mass);
+  append(old.velocity, first, last, fresh.velocity);
+  append(old.modes, first, last, fresh.modes);
+  append(old.internalEnergy, first, last, fresh.internalEnergy);
+  append(old.affineEnergy, first, last, fresh.affineEnergy);
+}
+
 }  // namespace
 
 template <int D>
 void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old, ParticleMaker& maker,
                const NewBoxes<D>& fresh) {
-  Lanes::Mask isLong{};
-  forEachBatch<D>(old.x.cells(), old.x, [&](const Batch<D>& batch) {
-    const LanesVec<D> edges = load(old.edges, batch);
-    for (int d = 0; d < D; ++d) isLong |= edges[d] > longestInCells * patch.level().spacing(d);
-  });
-  if (all(~isLong)) return maker.keepAll();
+  Vec<D> longest;
+  for (int d = 0; d < D; ++d) longest[d] = longestInCells * patch.level().spacing(d);
+  if (!anyLong<D>(patch.cells(), old.edges, longest, old.edges.owned())) return maker.keepAll();
+  int kept = 0, next = 0;  // particles of the patch whose values wait to be added
+  const auto addWaiting = [&](int begin) {
+    addKept(old, kept, next, fresh);
+    kept = next = begin;
+  };
   forEach<D>(old.x.cells(), [&](const Index<D>& cell) {
-    for (const int p : old.x.in(cell)) addHalved(patch, longestInCells, old.at(p), 0, maker, fresh);
+    const bool isOwn = patch.cells().contains(cell);
+    for (const int p : old.x.in(cell)) {
+      const bool isLong = (old.edges[p].array() > longest.array()).any();
+      if (isLong) {
+        addWaiting(p + 1);
+        addHalved(patch, longestInCells, old.at(p), 0, maker, fresh);
+      } else if (isOwn) {
+        if (p != next) addWaiting(p);
+        next = p + 1;
+        maker.add(cell, old.ids[p]);
+      }
+    }
   });
+  addWaiting(0);
 }
 
 template void splitLong<1>(const Patch&, double, const OldBoxes<1>&, ParticleMaker&, const NewBoxes<1>&);
