@@ -6,15 +6,20 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// N fields at the nodes or cells that the particles of a box of cells may overlap, initially 0. Each field is
-/// contiguous in memory, and wide enough for any footprint, so that no index needs a bounds check.
+/// N fields at the nodes or cells that the particles of a box of cells may overlap, initially 0, and wide enough for
+/// any footprint, so that no index needs a bounds check. The values of a row are contiguous in memory, and those of the
+/// next field follow them: so the fields around a particle are in few pages of memory.
 template <int D, std::size_t N>
 class GridFields {
  public:
   explicit GridFields(const Box& cells)
-      : box_(cells.grown(Footprint<D>::most, D)), size_(box_.size() + 2 * Lanes::count) {
-    for (int d = 1; d < D; ++d) stride_[d] = stride_[d - 1] * box_.extent(d - 1);
-    values_.resize(N * size_);
+      : box_(cells.grown(Footprint<D>::most, D)), size_(static_cast<std::size_t>(box_.extent(0) + 2 * Lanes::count)) {
+    std::size_t all = N * size_;
+    for (std::size_t d = 1; d < D; ++d) {
+      stride_[d] = static_cast<std::ptrdiff_t>(all);
+      all *= static_cast<std::size_t>(box_.extent(static_cast<int>(d)));
+    }
+    values_.resize(all);
   }
 
   double& at(std::size_t field, const Index<D>& index) { return values_[field * size_ + place(index)]; }
@@ -26,7 +31,7 @@ class GridFields {
   }
 
   /// Stores a field at nodes or cells of a row. Lanes beyond the end of the part are stored, too: behind a row is space
-  /// that nothing else uses, or the start of a row that is stored later.
+  /// that nothing else uses.
   void writeRow(std::size_t field, const RowPart<D>& part, const Lanes& values) {
     values.copyTo(&at(field, part.first));
   }
@@ -38,24 +43,24 @@ class GridFields {
   /// How far apart in memory two nodes or cells are that differ by `by` along all axes but the first.
   std::ptrdiff_t distance(const Index<D>& by) const {
     std::ptrdiff_t sum = 0;
-    for (int d = 1; d < D; ++d) sum += std::ptrdiff_t{by[d]} * stride_[d];
+    for (int d = 1; d < D; ++d) sum += by[d] * stride_[static_cast<std::size_t>(d)];
     return sum;
   }
 
  protected:
   /// Pointer to the values of a field, for derived classes that add to them.
   double* values(std::size_t field) { return values_.data() + field * size_; }
-  int stride(int axis) const { return stride_[axis]; }
+  std::ptrdiff_t stride(std::size_t axis) const { return stride_[axis]; }
   std::size_t place(const Index<D>& index) const {
-    int place = index[0] - box_.lower[0];
-    for (int d = 1; d < D; ++d) place += (index[d] - box_.lower[d]) * stride_[d];
+    std::ptrdiff_t place = index[0] - box_.lower[0];
+    for (int d = 1; d < D; ++d) place += (index[d] - box_.lower[d]) * stride_[static_cast<std::size_t>(d)];
     return static_cast<std::size_t>(place);
   }
 
  private:
   Box box_;
-  std::size_t size_;
-  Index<D> stride_ = Index<D>::filled(1);
+  std::size_t size_;                        ///< length of a row in memory
+  std::array<std::ptrdiff_t, D> stride_{};  ///< along all axes but the first
   std::vector<double> values_;
 };
 

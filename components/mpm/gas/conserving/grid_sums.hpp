@@ -85,13 +85,13 @@ struct SumsInRow {
 /// too, and are part of the sums that are read. So a sum does not depend on the order of the particles, which differs
 /// in a mirror image, unless the sum lies within about 1e-32 of the midpoint of two floating-point numbers.
 template <int D, std::size_t N, int More>
-class GridSums : GridFields<D, N> {
-  using Fields = GridFields<D, N>;
+class GridSums : GridFields<D, 2 * N> {
+  using Fields = GridFields<D, 2 * N>;
 
  public:
   using Brought = std::array<std::array<Lanes, Footprint<D>::places>, N>;
 
-  explicit GridSums(const Box& cells) : Fields(cells), lost_(N * this->size()) {}
+  explicit GridSums(const Box& cells) : Fields(cells) {}
 
   /// Adds terms to the nodes or cells of the footprints of a batch; lanes that are not in use must contribute 0.
   void add(const Footprint<D>& footprint, const Brought& brought) {
@@ -107,15 +107,15 @@ class GridSums : GridFields<D, N> {
   using Fields::distance;
   /// The sums of a field from a place on.
   SumsInRow rowAt(std::size_t field, std::size_t place) {
-    return {this->values(field) + place, lost_.data() + field * this->size() + place};
+    return {this->values(2 * field) + place, this->values(2 * field + 1) + place};
   }
   /// The sum at a node or cell.
   double at(std::size_t field, const Index<D>& index) const {
-    return Fields::at(field, index) + lost_[field * this->size() + this->place(index)];
+    return Fields::at(2 * field, index) + Fields::at(2 * field + 1, index);
   }
   /// The sums at a node or cell and its neighbours along the first axis.
   Lanes readRow(std::size_t field, const Index<D>& index) const {
-    return Fields::readRow(field, index) + Lanes::at(&lost_[field * this->size() + this->place(index)]);
+    return Fields::readRow(2 * field, index) + Fields::readRow(2 * field + 1, index);
   }
 
  private:
@@ -127,13 +127,12 @@ class GridSums : GridFields<D, N> {
       for (std::size_t k = 0; k < count; ++k) terms[k] = brought[k];
       row.add(terms);
     } else {
-      const int end = footprint.along[Axis].cells + More, stride = this->stride(Axis);
+      const int end = footprint.along[Axis].cells + More;
+      const std::ptrdiff_t stride = this->stride(Axis);
       for (int k = 0; k < end; ++k, brought += Footprint<D>::stride(Axis))
         addRows<Axis - 1, count>({row.sum + k * stride, row.lost + k * stride}, footprint, brought);
     }
   }
-
-  std::vector<double> lost_;
 };
 
 }  // namespace tushar::mpm::gas::conserving

@@ -403,4 +403,12 @@ void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& up
   updateAll<D, Scheme>(patch, update, motion, dt, factor);
 }
 
+// In update_particles.cpp, so that the kernels are compiled beside the other tasks.
+extern template void updateParticles<1, Apic>(const Patch&, const Gas&, const ParticleUpdate<1>&, double, Minimum&);
+extern template void updateParticles<1, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<1>&, double, Minimum&);
+extern template void updateParticles<2, Apic>(const Patch&, const Gas&, const ParticleUpdate<2>&, double, Minimum&);
+extern template void updateParticles<2, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<2>&, double, Minimum&);
+extern template void updateParticles<3, Apic>(const Patch&, const Gas&, const ParticleUpdate<3>&, double, Minimum&);
+extern template void updateParticles<3, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<3>&, double, Minimum&);
+
 }  // namespace tushar::mpm::gas::conserving
