@@ -240,8 +240,8 @@ void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
       if (source < 0) {
         const Arrival& arrival = moves.arrivals[-1 - source];
         const std::size_t at = arrival.place;
-        from = arrival.patch < 0 ? move.migrants + at * bytes
-                                 : move.packed + (of(all, arrival.patch).packed + at) * bytes;
+        from =
+            arrival.patch < 0 ? move.migrants + at * bytes : move.packed + (of(all, arrival.patch).packed + at) * bytes;
       }
       std::memcpy(values + static_cast<std::size_t>(entry.to) * bytes, from, bytes);
     }

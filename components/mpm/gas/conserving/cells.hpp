@@ -74,7 +74,7 @@ void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pr
 /// none.
 template <int D>
 Vec<D> forceOnNode(const Level& level, const CellView<const Tensor<D>>& stress, const Index<D>& node) {
-  return sumOverCorners<D>([&](int k) -> Vec<D> {
+  return sumOverCorners<D>([&](int k) __attribute__((always_inline))->Vec<D> {
     const Index<D> cell = node - (Linear<D>::node(node, k) - node);
     if (!stress.box().contains(cell)) return Vec<D>::Zero();
     return stress[cell] * centreGradient<D>(level, k);
@@ -130,7 +130,7 @@ void computeRelaxation(const Patch& patch, const Gas&, CellView<const double> sh
 template <int D>
 double workOnCell(const Level& level, const Tensor<D>& stress, const NodeView<const Vec<D>>& velocity,
                   const NodeView<const Vec<D>>& acceleration, double dt, const Index<D>& cell) {
-  const double power = sumOverCorners<D>([&](int k) -> double {
+  const double power = sumOverCorners<D>([&](int k) __attribute__((always_inline))->double {
     const Index<D> node = Linear<D>::node(cell, k);
     return (velocity[node] + 0.5 * dt * acceleration[node]).dot(stress * centreGradient<D>(level, k));
   });

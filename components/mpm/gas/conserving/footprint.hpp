@@ -111,10 +111,12 @@ struct Footprint {
     return result;
   }
 
-  /// Distance between the numbers of neighbours along an axis: the cells of a footprint are numbered with the first axis
-  /// fastest.
+  /// Distance between the numbers of neighbours along an axis: the cells of a footprint are numbered with the first
+  /// axis fastest.
   static constexpr int stride(int axis) { return axis == 0 ? 1 : most * stride(axis - 1); }
-  static constexpr std::size_t places = static_cast<std::size_t>(D == 1 ? most : D == 2 ? most * most : most * most * most);
+  static constexpr std::size_t places = static_cast<std::size_t>(D == 1   ? most
+                                                                 : D == 2 ? most * most
+                                                                          : most * most * most);
   static constexpr std::size_t number(const Index<D>& k) {
     int number = 0;
     for (int d = 0; d < D; ++d) number += k[d] * stride(d);

@@ -98,8 +98,7 @@ class GridSums : GridFields<D, 2 * N> {
     footprint.withExtentOfRows([&](auto extent) {
       constexpr std::size_t count = static_cast<std::size_t>(extent.cells + More);
       const std::size_t first = this->place(footprint.first());
-      for (std::size_t n = 0; n < N; ++n)
-        addRows<D - 1, count>(rowAt(n, first), footprint, brought[n].data());
+      for (std::size_t n = 0; n < N; ++n) addRows<D - 1, count>(rowAt(n, first), footprint, brought[n].data());
     });
   }
   /// The place of the first node or cell of a footprint in each field.

@@ -27,7 +27,7 @@ void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const
   };
   int p = 0;
   for (; p + Lanes::count <= edges.owned(); p += Lanes::count) {
-    const auto u = columnsOf<D * ((1 << D) - 1)>([&](int lane) { return modes[p + lane].data(); });
+    const auto u = columnsOf<D*((1 << D) - 1)>([&](int lane) { return modes[p + lane].data(); });
     const LanesVec<D> size = matrixOf<D, 1>(unpack<D>(edges[p].data()));
     const Lanes energy = modalEnergy<D>(matrixOf<D, (1 << D) - 1>(u), inertiaOf(size));
     const Lanes most = Lanes::at(&affineEnergy[p]) + spare * Lanes::at(&heat[p]);

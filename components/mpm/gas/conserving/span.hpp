@@ -86,10 +86,11 @@ struct Span {
     lower = origin + from * along.h;
     upper = origin + to * along.h;
     const Lanes offset = origin - 0.5 * (lower + upper);
-    withExtent<Overhang>(below, above, [&](auto extent) __attribute__((always_inline)) {
-      distribute(extent, from, to);
-      measureArms(extent, offset, along.h);
-    });
+    withExtent<Overhang>(
+        below, above, [&](auto extent) __attribute__((always_inline)) {
+          distribute(extent, from, to);
+          measureArms(extent, offset, along.h);
+        });
   }
 
   int nodes() const { return cells + 1; }
@@ -99,17 +100,8 @@ struct Span {
   Lanes upperOf(int k) const { return min(upper, centre() + arm[k + 1]); }
   Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
 
-  /// Sum over the nodes; `add(k, sum)` adds the term of node k. The nodes on either side of the middle are summed
-  /// separately, from the inside out, so that the mirror image has the same sum.
-  template <class Sum, class Add>
-  [[gnu::always_inline]] Sum sumOverNodes(Add&& add) const {
-    std::array<Sum, 2> sides{};
-    for (int n = 0; n < nodes(); ++n)  // a single loop, so that `add` is compiled once
-      add(n <= below ? below - n : n, sides[n > below]);
-    sides[0] += sides[1];
-    return sides[0];
-  }
-  /// The same for an axis of known extent.
+  /// Sum over the nodes of an axis of known extent; `add(k, sum)` adds the term of node k. The nodes on either side of
+  /// the middle are summed separately, from the inside out, so that the mirror image has the same sum.
   template <class Sum, int Below, int Cells, class Add>
   [[gnu::always_inline]] static Sum sumOverNodes(Extent<Below, Cells>, Add&& add) {
     Sum lowerSide{}, upperSide{};
@@ -181,10 +173,11 @@ struct Span {
   [[gnu::always_inline]] void measureArms(Extent<Below, Cells> extent, const Lanes& offset, double h) {
 #pragma GCC unroll 8
     for (int k = 0; k <= Cells; ++k) arm[static_cast<std::size_t>(k)] = offset + (k - Below - 0.5) * h;
-    inertia = sumOverNodes<Lanes>(extent, [&](int k, Lanes& sum) __attribute__((always_inline)) {
-      const std::size_t at = static_cast<std::size_t>(k);
-      sum += weight[at] * arm[at] * arm[at];
-    });
+    inertia = sumOverNodes<Lanes>(
+        extent, [&](int k, Lanes& sum) __attribute__((always_inline)) {
+          const std::size_t at = static_cast<std::size_t>(k);
+          sum += weight[at] * arm[at] * arm[at];
+        });
   }
 };
 

@@ -46,20 +46,20 @@ struct Gathering {
                                          const typename Footprint<D>::template Field<D - 1>& velocity) {
     const std::size_t first = nodes.placeOf(footprint);
     const auto& span = footprint.along[0];
-    footprint.forEachRowOfNodes(velocity, [&](const Index<D>& k, const Lanes& w, const auto& field)
-                                              __attribute__((always_inline)) {
-      const std::size_t place = first + static_cast<std::size_t>(nodes.distance(k));
-      std::array<Lanes, Cells + 1> m;
-      for (std::size_t c = 0; c <= Cells; ++c) m[c] = w * span.weight[c] * mass;
-      nodes.rowAt(0, place).add(m);
-      for (std::size_t d = 0; d < D; ++d) {
-        const int axis = static_cast<int>(d);
-        std::array<Lanes, Cells + 1> momentum;
-        for (std::size_t c = 0; c <= Cells; ++c)
-          momentum[c] = m[c] * (field[0][axis] + span.arm[c] * field[1][axis]);
-        nodes.rowAt(d + 1, place).add(momentum);
-      }
-    });
+    footprint.forEachRowOfNodes(
+        velocity, [&](const Index<D>& k, const Lanes& w, const auto& field) __attribute__((always_inline)) {
+          const std::size_t place = first + static_cast<std::size_t>(nodes.distance(k));
+          std::array<Lanes, Cells + 1> m;
+          for (std::size_t c = 0; c <= Cells; ++c) m[c] = w * span.weight[c] * mass;
+          nodes.rowAt(0, place).add(m);
+          for (std::size_t d = 0; d < D; ++d) {
+            const int axis = static_cast<int>(d);
+            std::array<Lanes, Cells + 1> momentum;
+            for (std::size_t c = 0; c <= Cells; ++c)
+              momentum[c] = m[c] * (field[0][axis] + span.arm[c] * field[1][axis]);
+            nodes.rowAt(d + 1, place).add(momentum);
+          }
+        });
   }
 };
 
@@ -98,13 +98,14 @@ template <int D, bool Fills, class Visit>
 void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visitFill) {
   Gathering<D, Fills> sums(t.x.cells());
   const CellsOf<D> grid(patch.level());
-  forEachBatch<D>(t.x.cells(), t.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
-    const LanesVec<D> size = load(t.edges, batch);
-    const Footprint<D> footprint(grid, batch, load(t.x, batch), size);
-    const Lanes m = batch.only(load(t.mass, batch));
-    sums.add(footprint, {m, m * load(t.internalEnergy, batch), batch.only(size.prod())},
-             fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
-  });
+  forEachBatch<D>(
+      t.x.cells(), t.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
+        const LanesVec<D> size = load(t.edges, batch);
+        const Footprint<D> footprint(grid, batch, load(t.x, batch), size);
+        const Lanes m = batch.only(load(t.mass, batch));
+        sums.add(footprint, {m, m * load(t.internalEnergy, batch), batch.only(size.prod())},
+                 fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
+      });
   forEachRowPart<D>(t.cellMass.box(), [&](const RowPart<D>& part) {
     store(sums.cells.readRow(0, part.first), t.cellMass, part);
     store(sums.cells.readRow(1, part.first), t.cellInternalEnergy, part);

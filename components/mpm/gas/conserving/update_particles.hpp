@@ -1,8 +1,6 @@
 #pragma once
 
-#include "components/mpm/gas/conserving/grid_fields.hpp"
-#include "components/mpm/gas/conserving/labels.hpp"
-#include "components/mpm/gas/conserving/scheme.hpp"
+#include "components/mpm/gas/conserving/motion.hpp"
 #include "components/mpm/gas/material.hpp"
 
 namespace tushar::mpm::gas::conserving {
@@ -35,111 +33,7 @@ struct Gathered {
   Lanes slipEnergy() const { return !Scheme::relaxes ? 0 : apic ? 0.5 * slip : slip; }
 };
 
-/// Views of the variables that updateParticles reads and writes.
-template <int D>
-struct ParticleUpdate {
-  // Particles at the start of the step.
-  ParticleView<const Vec<D>> x, edges, velocity;
-  ParticleView<const Modes<D>> modes;
-  ParticleView<const double> internalEnergy, affineEnergy;
-  // The grid.
-  NodeView<const Vec<D>> nodeVelocity, acceleration;
-  NodeView<const double> relaxation;
-  CellView<const double> work;
-  // Particles at the end of the step.
-  ParticleView<Vec<D>> newX, newEdges, newVelocity;
-  ParticleView<Modes<D>> newModes;
-  ParticleView<double> newInternalEnergy, newAffineEnergy;
-
-  static ParticleUpdate from(auto& take) {
-    constexpr int overhang = Footprint<D>::overhang;
-    return {.x = take(requiresOld(p::x<D>)),
-            .edges = take(requiresOld(p::edges<D>)),
-            .velocity = take(requiresOld(p::velocity<D>)),
-            .modes = take(requiresOld(p::modes<D>)),
-            .internalEnergy = take(requiresOld(p::internalEnergy)),
-            .affineEnergy = take(requiresOld(p::affineEnergy)),
-            .nodeVelocity = take(requiresOld(g::velocity<D>, overhang)),
-            .acceleration = take(requiresNew(g::acceleration<D>, overhang)),
-            .relaxation = take(requiresNew(g::relaxation, overhang)),
-            .work = take(requiresNew(c::work, overhang)),
-            .newX = take(computes(p::x<D>)),
-            .newEdges = take(computes(p::edges<D>)),
-            .newVelocity = take(computes(p::velocity<D>)),
-            .newModes = take(computes(p::modes<D>)),
-            .newInternalEnergy = take(computes(p::internalEnergy)),
-            .newAffineEnergy = take(computes(p::affineEnergy))};
-  }
-};
-
-/// Grid fields from which particles are updated: at nodes, the components of v and v + dt a; without apic also of v +
-/// faceTime dt a, and 1 - beta and beta (2 - beta) / 2; in cells, f.
-template <int D, bool apic>
-struct Motion : GridFields<D, apic ? 2 * D + 1 : 3 * D + 3> {
-  static constexpr std::size_t accelerated = D, work = 2 * D, moving = 2 * D + 1, kept = 3 * D + 1, slip = 3 * D + 2;
-  using Fields = GridFields<D, apic ? 2 * D + 1 : 3 * D + 3>;
-
-  bool relaxes = apic;  ///< whether any beta is not 0
-
-  Motion(const Patch& patch, const ParticleUpdate<D>& update, double dt) : Fields(patch.cells()) {
-    constexpr double faceTime = apic ? Apic::faceTime : AffineFlip::faceTime;
-    Lanes greatestBeta = 0;
-    forEachRowPart<D>(update.nodeVelocity.box(), [&](const RowPart<D>& nodes) {
-      const LanesVec<D> v = load(update.nodeVelocity, nodes), dv = dt * load(update.acceleration, nodes);
-      put(0, nodes, v);
-      put(accelerated, nodes, v + dv);
-      if constexpr (!apic) {
-        const Lanes beta = load(update.relaxation, nodes);
-        greatestBeta = max(greatestBeta, beta);
-        put(moving, nodes, v + faceTime * dv);
-        this->writeRow(kept, nodes, 1 - beta);
-        this->writeRow(slip, nodes, 0.5 * beta * (2 - beta));
-      }
-    });
-    if (!apic) relaxes = any(greatestBeta > 0);
-    forEachRowPart<D>(update.work.box(),
-                      [&](const RowPart<D>& cells) { this->writeRow(work, cells, load(update.work, cells)); });
-  }
-
- private:
-  void put(std::size_t field, const RowPart<D>& nodes, const LanesVec<D>& values) {
-    for (std::size_t d = 0; d < D; ++d) this->writeRow(field + d, nodes, values[static_cast<int>(d)]);
-  }
-};
-
-template <int D, class Scheme>
-using MotionOf = Motion<D, Scheme::transfer == Transfer::apic>;
-
-/// Reads the grid fields in a row of nodes or cells near a batch.
-template <int D>
-struct RowReader {
-  const double* first;
-  std::size_t size;  ///< distance between fields
-
-  [[gnu::always_inline]] Lanes operator()(std::size_t field, int k) const {
-    return Lanes::at(first + field * size + k);
-  }
-  [[gnu::always_inline]] LanesVec<D> vector(std::size_t field, int k) const {
-    LanesVec<D> values;
-    for (std::size_t d = 0; d < D; ++d) values[static_cast<int>(d)] = (*this)(field + d, k);
-    return values;
-  }
-};
-
-/// Reads the grid fields near a batch.
-template <int D, class Fields>
-struct Reader {
-  const Fields& motion;
-  const double* first;
-
-  Reader(const Fields& of, const Footprint<D>& footprint)
-      : motion(of), first(of.addressOf(footprint.first())) {}
-  [[gnu::always_inline]] RowReader<D> row(const Index<D>& at) const {
-    return {first + motion.distance(at), motion.size()};
-  }
-};
-
-/// The sum over the nodes of an axis, as Span::sumOverNodes; `term(k)` is the term of node k.
+/// The sum over the nodes of an axis, in the order of Span::sumOverNodes; `term(k)` is the term of node k.
 template <int Below, int Cells, class Term>
 [[gnu::always_inline]] inline Lanes sumOfTerms(Extent<Below, Cells>, Term&& term) {
   Lanes lowerSide = term(std::size_t{Below}), upperSide = term(std::size_t{Below + 1});
@@ -185,7 +79,7 @@ template <int D, class Scheme, bool isFirst>
                                            Gathered<D, Scheme, 0>& sum) {
   constexpr bool apic = Scheme::transfer == Transfer::apic;
   const AtNode<D, Scheme> node(read, static_cast<int>(k), span.arm[k], field);
-  const auto add = [](Lanes& to, const Lanes& term) __attribute__((always_inline)) {
+  const auto add = [](Lanes & to, const Lanes& term) __attribute__((always_inline)) {
     if constexpr (isFirst)
       to = term;
     else
@@ -218,17 +112,17 @@ template <int D, class Scheme, int Axis, class Along>
                                            Gathered<D, Scheme, Axis>& sum) {
   constexpr std::size_t half = std::size_t{1} << Axis;
   const auto weighted = [&](const auto& of) __attribute__((always_inline)) {
-    return sumOfTerms(extent, [&](std::size_t k) __attribute__((always_inline)) {
-      return span.weight[k] * of(slices[k]);
-    });
+    return sumOfTerms(
+        extent, [&](std::size_t k) __attribute__((always_inline)) { return span.weight[k] * of(slices[k]); });
   };
   for (std::size_t a = 0; a < slices->moments.size(); ++a)
     for (int d = 0; d < D; ++d) {
       sum.moments[a][d] = weighted([&](const auto& slice) { return slice.moments[a][d]; });
       if constexpr (Scheme::transfer != Transfer::apic)
-        sum.moments[a + half][d] = sumOfTerms(extent, [&](std::size_t k) __attribute__((always_inline)) {
-          return span.weight[k] * span.arm[k] * slices[k].moments[a][d];
-        });
+        sum.moments[a + half][d] = sumOfTerms(
+            extent, [&](std::size_t k) __attribute__((always_inline)) {
+              return span.weight[k] * span.arm[k] * slices[k].moments[a][d];
+            });
     }
   for (std::size_t part = 0; part < sum.lower[0].size(); ++part) {
     for (std::size_t d = 0; d < Axis; ++d) {
@@ -236,12 +130,12 @@ template <int D, class Scheme, int Axis, class Along>
       sum.upper[d][part] = weighted([&](const auto& slice) { return slice.upper[d][part]; });
     }
     const int at = static_cast<int>(part);
-    sum.lower[Axis][part] = sumOfTerms(extent, [&](std::size_t k) __attribute__((always_inline)) {
-      return span.atLower[k] * slices[k].ofNextFace(at);
-    });
-    sum.upper[Axis][part] = sumOfTerms(extent, [&](std::size_t k) __attribute__((always_inline)) {
-      return span.atUpper[k] * slices[k].ofNextFace(at);
-    });
+    sum.lower[Axis][part] = sumOfTerms(
+        extent, [&](std::size_t k)
+                    __attribute__((always_inline)) { return span.atLower[k] * slices[k].ofNextFace(at); });
+    sum.upper[Axis][part] = sumOfTerms(
+        extent, [&](std::size_t k)
+                    __attribute__((always_inline)) { return span.atUpper[k] * slices[k].ofNextFace(at); });
   }
   for (std::size_t d = 0; d < sum.moving.size(); ++d)
     sum.moving[d] = weighted([&](const auto& slice) { return slice.moving[d + 1]; });
@@ -300,15 +194,17 @@ template <int D, class Fields, class Row>
   return footprint.sumOverRowsOfCells([&](const Index<D>& at, const Lanes& part) __attribute__((always_inline)) {
     const auto& span = footprint.along[0];
     const RowReader<D> row = read.row(at);
-    return span.sumOverCells(extent, [&](int k, Lanes& sum) __attribute__((always_inline)) {
-      sum += part * span.part[static_cast<std::size_t>(k)] * row(Fields::work, k);
-    });
+    return span.sumOverCells(
+        extent, [&](int k, Lanes& sum) __attribute__((always_inline)) {
+          sum += part * span.part[static_cast<std::size_t>(k)] * row(Fields::work, k);
+        });
   });
 }
 
 /// Requires a smaller time step if a box would shrink below 0.4 of its length or become longer than `most`.
 template <int D>
-[[gnu::always_inline]] inline void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, double most, Minimum& factor) {
+[[gnu::always_inline]] inline void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after,
+                                              double most, Minimum& factor) {
   if (batch.holds((after > 0.4 * before) & (after < most))) return;
   for (int lane = 0; lane < Lanes::count; ++lane) {
     if (batch.used[lane] == 0) continue;
@@ -320,7 +216,8 @@ template <int D>
 
 /// Requires a smaller time step if the work would use more than 0.8 of the internal energy, or make it negative.
 template <int D>
-[[gnu::always_inline]] inline void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy, Minimum& factor) {
+[[gnu::always_inline]] inline void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy,
+                                                Minimum& factor) {
   if (batch.holds((work > -0.8) & (energy >= 0))) return;
   for (int lane = 0; lane < Lanes::count; ++lane) {
     if (batch.used[lane] == 0) continue;
@@ -378,12 +275,13 @@ template <int D, class Scheme>
 void updateAll(const Patch& patch, const ParticleUpdate<D>& update, const MotionOf<D, Scheme>& motion, double dt,
                Minimum& factor) {
   const CellsOf<D> grid(patch.level());
-  forEachBatch<D>(patch.cells(), update.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
-    const Footprint<D> footprint(grid, batch, load(update.x, batch), load(update.edges, batch));
-    footprint.withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
-      updateBatch<D, Scheme>(extent, patch.level(), batch, footprint, motion, update, dt, factor);
-    });
-  });
+  forEachBatch<D>(
+      patch.cells(), update.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
+        const Footprint<D> footprint(grid, batch, load(update.x, batch), load(update.edges, batch));
+        footprint.withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
+          updateBatch<D, Scheme>(extent, patch.level(), batch, footprint, motion, update, dt, factor);
+        });
+      });
 }
 
 /// Updates particles from node velocities v, accelerations a and relaxations beta, and from the work f on cells.
@@ -405,10 +303,13 @@ void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& up
 
 // In update_particles.cpp, so that the kernels are compiled beside the other tasks.
 extern template void updateParticles<1, Apic>(const Patch&, const Gas&, const ParticleUpdate<1>&, double, Minimum&);
-extern template void updateParticles<1, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<1>&, double, Minimum&);
+extern template void updateParticles<1, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<1>&, double,
+                                                    Minimum&);
 extern template void updateParticles<2, Apic>(const Patch&, const Gas&, const ParticleUpdate<2>&, double, Minimum&);
-extern template void updateParticles<2, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<2>&, double, Minimum&);
+extern template void updateParticles<2, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<2>&, double,
+                                                    Minimum&);
 extern template void updateParticles<3, Apic>(const Patch&, const Gas&, const ParticleUpdate<3>&, double, Minimum&);
-extern template void updateParticles<3, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<3>&, double, Minimum&);
+extern template void updateParticles<3, AffineFlip>(const Patch&, const Gas&, const ParticleUpdate<3>&, double,
+                                                    Minimum&);
 
 }  // namespace tushar::mpm::gas::conserving

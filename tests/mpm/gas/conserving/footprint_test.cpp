@@ -183,7 +183,7 @@ TEST(GridSums, AreTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
   std::uniform_real_distribution<double> uniform(0, 1);
   GridSums<2, 1, 0> together(level.cells()), apart(level.cells());
   for (int row = 1; row < 5; ++row) {
-    const Batch<2> all({{0, row}}, LaneIntegers{}, LaneIntegers{} - 1);
+    const Batch<2> all({{0, row}}, LaneIntegers{}, Lanes::Mask{} - 1);
     LanesVec<2> centre, edges;
     for (int lane = 0; lane < Lanes::count; ++lane) {
       const Index<2> cell{{lane, row}};
