@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/input/values.hpp"
+#include "core/simulation/between_materials.hpp"
 #include "core/simulation/careful_steps.hpp"
 #include "core/simulation/level_limits.hpp"
 #include "core/simulation/refinement_marks.hpp"
@@ -108,6 +109,8 @@ Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Ana
     careful->scheduleCarefulTimeAdvance(lists_.carefulAdvance);
     about_careful_steps_ = careful->aboutCarefulSteps();
   }
+  if (const auto* moves = dynamic_cast<const MovesBetweenMaterials*>(&component))
+    moves->scheduleNextMaterials(lists_.nextMaterials);
   component.scheduleDiagnostics(lists_.diagnostics);
   component.scheduleErrorEstimate(lists_.errorEstimate);
   tasks::TaskList refine;
@@ -126,6 +129,7 @@ void Phases::validateAll() const {
   tasks::validate(lists.stableTimeStep.tasks(), state);
   tasks::validate(lists.timeAdvance.tasks(), withDelT);
   tasks::validate(lists.carefulAdvance.tasks(), withDelT);
+  tasks::validate(lists.nextMaterials.tasks(), state);
   tasks::validate(lists.diagnostics.tasks(), state);
   tasks::validate(estimating(lists.diagnostics, {}, lists.errorEstimate).tasks(), state);
   tasks::validate(lists.refine.tasks(), state);
@@ -318,15 +322,17 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
   const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
   Pruned mend = prune(mends.tasks(), stepped, false);
-  Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend});
-  Names always = requiredByAll({&stable, &begin, &refine, &mend});
+  Pruned moves = prune(lists.nextMaterials.tasks(), {std::string(nextMaterial.name)}, false);
+  Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend, &moves});
+  Names always = requiredByAll({&stable, &begin, &refine, &mend, &moves});
   Names atEnd = united(united(read, wants.ofState), tasks::registersOf(lists.timeAdvance));
   addNeeded(lists.carefulAdvance, {&always, &atEnd});
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
   Pruned advance = prune(lists.timeAdvance.tasks(), atEnd, true);
   if (smallerSteps) refuseSmallerSteps({&stable, &advance}, *smallerSteps);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
-  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend}, grid, regrid.where);
+  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend, &moves}, grid,
+                regrid.where);
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);
@@ -335,6 +341,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Names needed = advance.needed;
   timeAdvance = tasks::TaskGraph("timeAdvance", std::move(advance), grid, table);
   carefulAdvance = carefulGraph(lists.carefulAdvance, needed, grid, table);
+  nextMaterials = tasks::TaskGraph("materials of the next step", std::move(moves), grid, table);
   everyStep = tasks::TaskGraph("diagnostics of every step", std::move(step), grid, table);
   everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), grid, table);
   startTotals = tasks::TaskGraph("totals of the start", std::move(begin), grid, table);

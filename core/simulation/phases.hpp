@@ -41,6 +41,7 @@ class Phases {
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
   tasks::TaskGraph carefulAdvance;  ///< steps after a particle has been removed (CarefulSteps); empty: timeAdvance
+  tasks::TaskGraph nextMaterials;   ///< finds the particles that move to other materials; empty: none ever does
   tasks::TaskGraph refinement;      ///< marks cells where criteria require finer ones
   tasks::TaskGraph refined;         ///< corrects the values of newly refined cells
   tasks::TaskGraph refluxing;       ///< refluxing on a level, after the smaller steps of the next finer level
@@ -73,7 +74,8 @@ class Phases {
  private:
   void printLevels(std::ostream& out) const;
   struct Lists {
-    tasks::TaskList initialize, stableTimeStep, timeAdvance, carefulAdvance, diagnostics, errorEstimate, refine, reflux;
+    tasks::TaskList initialize, stableTimeStep, timeAdvance, carefulAdvance, nextMaterials, diagnostics, errorEstimate,
+        refine, reflux;
   };
   /// Stores the number of levels and how they step, and adds the tasks that several levels need.
   void prepareLevels(int levels, bool refluxes, bool bySmallerSteps);

@@ -36,7 +36,8 @@ void Phases::printLevels(std::ostream& out) const {
 }
 
 void Phases::printSchedule(std::ostream& out) const {
-  for (const tasks::TaskGraph* graph : {&initialize, &stableTimeStep, &timeAdvance}) {
+  for (const tasks::TaskGraph* graph : {&initialize, &stableTimeStep, &timeAdvance, &nextMaterials}) {
+    if (graph == &nextMaterials && nextMaterials.tasks().empty()) continue;
     graph->print(out);
     graph->printLeftOut(out);
   }

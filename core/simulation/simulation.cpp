@@ -9,7 +9,9 @@
 #include "core/collect/gather.hpp"
 #include "core/report/error_norms.hpp"
 #include "core/simulation/kept_reductions.hpp"
+#include "core/simulation/between_materials.hpp"
 #include "core/solvers/solver.hpp"
+#include "core/tasks/between_materials.hpp"
 
 namespace tushar::simulation {
 
@@ -64,6 +66,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       regridder_(run_),
       report_(run_) {
   if (run_.problem.smallerSteps) level_steps_.emplace(run_);
+  if (!run_.phases.nextMaterials.tasks().empty()) run_.scheduler.skipAbsentMaterials();
   run_.scheduler.relocation().setAdviceNearCoarser(adviceNearCoarser(run_.problem.regrid));
 }
 
@@ -244,6 +247,15 @@ void Simulation::advance() {
   }
   if (!level_steps_) run_.scheduler.commit(graph);
   time.advance();
+  moveBetweenMaterials();
+}
+
+/// Moves particles that have separated from others, or met them, to other materials.
+void Simulation::moveBetweenMaterials() {
+  tasks::TaskGraph& graph = run_.phases.nextMaterials;
+  if (graph.tasks().empty()) return;
+  run_.scheduler.run(graph, {run_.time.step(), run_.time.time()});
+  tasks::moveBetweenMaterials(run_.warehouse, run_.materials(), nextMaterial.name, run_.phases.lasting());
 }
 
 data::Minimum Simulation::stableStep() {

@@ -57,6 +57,7 @@ class Simulation {
   void step();
   /// Advances the state by one time step, which is repeated with a shorter one if a task requires it.
   void advance();
+  void moveBetweenMaterials();
   /// The longest stable step for the current state, and the limit that determines it.
   data::Minimum stableStep();
   /// Tries a step of length `dt` [s]; if a task requires a shorter one, returns the factor.

@@ -149,6 +149,7 @@ void Scheduler::start(const TaskGraph& graph, int end, const StepInfo& at) {
   heard_stop_ = false;
   costs_.resize(warehouse_->grid().patches().size());
   distributeOverThreads();
+  findAbsent(graph);
   relocation_.start();
   exchange_.forgetParticles();
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
@@ -158,7 +159,7 @@ void Scheduler::runTask(TaskGraph& graph, int number, const StepInfo& at) {
   CompiledTask& task = graph.tasks()[number];
   running_ = number;
   const bool exchanges = hasStopped() || !exchange_.movesNothing();
-  if (exchanges && task.sends >= 0 && task.sends < end_) exchange_.send(graph.tasks()[task.sends].fills, hasStopped());
+  if (exchanges && task.sends >= 0 && task.sends < end_) exchange_.send(presentOf(graph.tasks()[task.sends].fills), hasStopped());
   if (exchanges && !task.fills.empty()) {
     exchange_.begin(hasStopped());
     if (!task.mayStartEarly || hasStopped()) heard_stop_ = !exchange_.finish() || heard_stop_;
@@ -200,7 +201,9 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   const int first = isOnce ? -1 : firstMaterial(task);
   const int end = first + (isOnce ? 1 : static_cast<int>(task.materials.size()));
   for (int m = first; m < end && !heard_stop_ && (mayAsk || !hasStopped()); ++m)
-    if (task.task.perRank)
+    if (!isPresent(m))
+      continue;
+    else if (task.task.perRank)
       threads_.alone([&] { runOnRank(task, at); }, trace::Kind::task, task.task.name);
     else
       runOnPatches(task, m, at);
@@ -210,15 +213,19 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
 }
 
 void Scheduler::shareFaces(const CompiledTask& task) {
-  for (const MaterialBinding& binding : task.materials)
-    for (const Output& shared : binding.shared)
-      if (!hasStopped()) exchange_.shareFaces(shared.variable, shared.set);
+  for (std::size_t m = 0; m < task.materials.size(); ++m)
+    if (isPresent(static_cast<int>(m) + firstMaterial(task)))
+      for (const Output& shared : task.materials[m].shared)
+        if (!hasStopped()) exchange_.shareFaces(shared.variable, shared.set);
 }
 
 /// Relocates particles, on all ranks or on none. If no task follows a relocation, its moves are made when the step is
 /// accepted.
 void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
-  for (int m = 0; m < static_cast<int>(task.materials.size()) && (m == 0 || !hasStopped()); ++m) {
+  bool isFirst = true;  // all ranks take part in the first relocation, even those that have stopped
+  for (int m = 0; m < static_cast<int>(task.materials.size()) && (isFirst || !hasStopped()); ++m) {
+    if (!isPresent(m)) continue;
+    isFirst = false;
     const MaterialBinding& binding = task.of(m);
     try {
       located(task, -1, m, at, [&] {
@@ -235,7 +242,8 @@ void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
   const bool all = task.task.acrossMaterials;
   const int from = all ? 0 : material, end = all ? static_cast<int>(task.materials.size()) : material + 1;
-  for (int m = from; m < end; ++m) allocateOutputs(task.of(m));
+  for (int m = from; m < end; ++m)
+    if (isPresent(m)) allocateOutputs(task.of(m));
   const bool makes = task.task.kind == TaskKind::newParticles;
   makers_.clear();
   for (int place = 0; makes && place < warehouse_->patches(); ++place)
@@ -244,7 +252,7 @@ void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& a
   std::atomic<bool> kept = true;
   const auto checkBounds = [&](const grid::Patch& patch) {
     for (int m = from; m < end; ++m)
-      if (!keepsBounds(*warehouse_, task.of(m).bounded, patch)) kept = false;
+      if (isPresent(m) && !keepsBounds(*warehouse_, task.of(m).bounded, patch)) kept = false;
   };
   forEachPatch(task, [&](const grid::Patch& patch) {
     try {
@@ -267,7 +275,8 @@ void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& a
 
 void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
   const int first = firstMaterial(task);
-  for (const MaterialBinding& binding : task.materials) allocateOutputs(binding);
+  for (std::size_t m = 0; m < task.materials.size(); ++m)
+    if (isPresent(static_cast<int>(m) + first)) allocateOutputs(task.materials[m]);
   std::vector<std::vector<TaskContext>> contexts;
   for (const grid::Patch& patch : warehouse_->grid().patches()) {
     std::vector<TaskContext>& ofPatch = contexts.emplace_back();
@@ -347,8 +356,9 @@ void Scheduler::allocateOutputs(const MaterialBinding& binding) {
 }
 
 void Scheduler::free(const CompiledTask& task) {
-  for (const MaterialBinding& binding : task.materials)
-    for (const int number : binding.freed) warehouse_->free(Generation::fresh, number);
+  for (std::size_t m = 0; m < task.materials.size(); ++m)
+    if (m == 0 || isPresent(static_cast<int>(m) + firstMaterial(task)))  // the first one also frees what has no material
+      for (const int number : task.materials[m].freed) warehouse_->free(Generation::fresh, number);
 }
 
 void Scheduler::fillGhosts(const std::vector<int>& variables) {
@@ -362,17 +372,19 @@ void Scheduler::fillGhosts(const std::vector<int>& variables) {
 
 void Scheduler::commit(TaskGraph& graph) {
   relocation_.commit();
-  for (const int number : graph.results()) warehouse_->makeOld(number);
+  for (const int number : graph.results())
+    if (isPresent(warehouse_->table()[number].material)) warehouse_->makeOld(number);
   if (!graph.tasks().empty()) apply(graph.tasks().back());
-  for (const int material : graph.changedSets()) warehouse_->swapSets(material);
+  for (const int material : graph.changedSets())
+    if (isPresent(material)) warehouse_->swapSets(material);
 }
 
 void Scheduler::apply(CompiledTask& last) {
   if (last.task.kind != TaskKind::relocate) return;
   const OneClock oneClock(threads_, warehouse_->ranks());
   lap_started_ = Clock::now();
-  for (std::size_t m = 0; m < last.materials.size(); ++m)
-    relocation_.apply(static_cast<int>(m), last.materials[m].carried, Generation::old);
+  for (int m = 0; m < static_cast<int>(last.materials.size()); ++m)
+    if (isPresent(m)) relocation_.apply(m, last.materials[m].carried, Generation::old);
   last.seconds += lap(trace::Kind::task);
 }
 

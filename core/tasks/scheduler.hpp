@@ -57,6 +57,9 @@ class Scheduler {
   /// If a task requests a smaller time step by recomputeTimeStep, the graph ends after this task, and its factor and
   /// reason are returned; running the graph again repeats the step. Otherwise returns nothing.
   std::optional<data::Minimum> run(TaskGraph& graph, const StepInfo& at);
+  /// From now on, tasks skip materials that have no particles on any rank at the start of a graph, unless the graph
+  /// makes particles. The variables of such materials have no values, and views of them are empty.
+  void skipAbsentMaterials() { may_skip_ = true; }
   /// Fills the ghosts of old values of cell variables. Collective.
   void fillGhosts(const std::vector<int>& variables);
   /// Makes the results of a graph the old state of the next step.
@@ -102,6 +105,11 @@ class Scheduler {
   /// Starts a run of the first `end` tasks.
   void start(const TaskGraph& graph, int end, const StepInfo& at);
   void distributeOverThreads();
+  void findAbsent(const TaskGraph& graph);
+  /// Whether tasks run for a material (-1: no material).
+  bool isPresent(int material) const { return !skips_ || material < 0 || is_present_[material]; }
+  /// Those of the fills whose materials are present; valid until the next call.
+  std::span<const BoundGhostFill> presentOf(const std::vector<BoundGhostFill>& fills);
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
   /// Completes node variables of which each patch has written only its own nodes.
@@ -141,6 +149,10 @@ class Scheduler {
   Outcome outcome_;                      ///< outcome of the current run
   std::optional<NumericalError> error_;  ///< the error that caused it, on the rank on which a body threw it
   std::vector<double> costs_;            ///< for each patch: time of the threads that worked on it [s]
+  bool may_skip_ = false;                ///< whether graphs skip materials without particles
+  bool skips_ = false;                   ///< whether the current graph skips materials
+  std::vector<char> is_present_;         ///< for each material: whether it has particles
+  std::vector<BoundGhostFill> present_fills_;
   bool heard_stop_ = false;              ///< whether a rank from which this one receives values has stopped
   int level_ = -1;                       ///< the level on whose patches the graph runs; -1: all
   int runs_ = 0;                         ///< number of runs of a graph so far

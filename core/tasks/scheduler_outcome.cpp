@@ -32,6 +32,7 @@ void Scheduler::note(const CompiledTask& task, int material, const NumericalErro
 
 void Scheduler::noteBroken(const CompiledTask& task, int first, int end) {
   for (int material = first; material < end; ++material) {
+    if (!isPresent(material)) continue;
     const auto& bounded = task.of(material).bounded;
     const std::size_t place = firstThatBreaks(*warehouse_, bounded, level_);
     if (place == bounded.size()) continue;

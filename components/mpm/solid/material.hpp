@@ -3,6 +3,7 @@
 #include "components/mpm/solid/constitutive/model.hpp"
 #include "components/mpm/solid/damage/damage.hpp"
 #include "components/mpm/solid/damage/erosion.hpp"
+#include "components/mpm/solid/grains/grain.hpp"
 #include "components/mpm/solid/placement.hpp"
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
@@ -68,7 +69,14 @@ struct Material {
   Damage damage;
   Erosion erosion;
   std::vector<Body> bodies;
+  std::optional<double> criticalDensity;  ///< density at which its particles just touch [kg/m^3] (DoGranularMPM)
+  bool isStressFree = false;              ///< whether F does not change in steps that exceed the critical density
+  std::optional<int> grainType;           ///< Grain::type
+  bool hasGrainContact = true;            ///< Grain::hasContact
+  bool maySplit = false;                  ///< Grain::maySplit
+  ParticleId firstIdInCell = 0;           ///< smallest id of its particles, relative to that of their cell
 
+  Grain grain() const { return {grainType.value_or(0), hasGrainContact, maySplit}; }
   MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
   /// The density of a particle at F = I [kg/m^3]; differs from `density`, the density at the start, in bodies with an
   /// initial pressure.

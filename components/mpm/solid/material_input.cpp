@@ -10,6 +10,7 @@
 #include "components/mpm/solid/constitutive/make_model.hpp"
 #include "components/mpm/solid/contact/contact_input.hpp"
 #include "components/mpm/solid/damage/damage_input.hpp"
+#include "components/mpm/solid/grains/grain_input.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -212,7 +213,8 @@ const Schema<Material>& materialSchema() {
         .custom("damage_model", readDamage, {"damage_model", "erosion"},
                 "when particles fail, and what strength they then have", describeDamage)
         .forms(damageForms())
-        .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
+        .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start");
+    addGrainTags(material);
     acceptUintahsTags(material);
     return material;
   }();

@@ -48,6 +48,7 @@ struct Method {
   bool turnsPressures = false;
   /// DoPressureStabilization: whether the particles of a cell share one change of volume
   bool sharesVolume = false;
+  bool isGranular = false;  ///< DoGranularMPM: whether grains that do not touch move separately
   bool conductsHeat = true;
   bool loadsAtCorners = false;  ///< use_CBDI_boundary_condition: whether pressures act on faces of particles
   bool contactHeats = false;    ///< do_contact_friction_heating: whether friction in contacts heats bodies

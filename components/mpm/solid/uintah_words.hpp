@@ -15,7 +15,6 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"coupled_flow_analysis", "there is only one phase"},
     {"AMR", "solids are on one level: choose a higher <resolution>"},
     {"DoCapDensity", "remove it: density is not capped"},
-    {"DoGranularMPM", "remove it"},
     {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
     {"use_volume_integral", "remove it: particles represent their volume"},
     {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
@@ -26,6 +25,9 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
     {"create_new_particles", "particles are not split or merged"},
+    {"GranularMPMVcrix", "Uintah does not use it either: <critical_density> determines which particles touch"},
+    {"GranularMPMVcriy", "Uintah does not use it either: <critical_density> determines which particles touch"},
+    {"GranularMPMVcriz", "Uintah does not use it either: <critical_density> determines which particles touch"},
     {"CanAddMPMMaterial", "all materials exist from the start"},
     {"DeleteGeometryObjects", "shapes are not stored"},
     {"computeNodalHeatFlux", "it has no effect"},

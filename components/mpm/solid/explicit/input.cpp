@@ -8,6 +8,7 @@
 
 #include "components/mpm/solid/explicit/check_problem.hpp"
 #include "components/mpm/solid/explicit/interpolators.hpp"
+#include "components/mpm/solid/grains/grain_input.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
 #include "components/mpm/solid/scene_input.hpp"
@@ -34,7 +35,7 @@ struct MpmSection {
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
   bool conductsHeat = true, loadsAtCorners = false, xpic = false, affine = false, projectsGradient = false,
-       contactHeats = false, sharesVolume = false, turnsPressures = false, oneNormal = true;
+       contactHeats = false, sharesVolume = false, isGranular = false, turnsPressures = false, oneNormal = true;
   std::optional<bool> viscosityHeats;
   double picFraction = 0;
   StressUpdate stressUpdate = StressUpdate::last;
@@ -133,6 +134,9 @@ void addSurroundings(Schema<MpmSection>& mpm) {
       .value("DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
              "F-bar: the particles of a cell share one change of volume, so that a nearly incompressible body can bend "
              "and shear")
+      .value("DoGranularMPM", &MpmSection::isGranular, false, "1",
+             "after each step, particles that overlap with the sizes that they have at <critical_density> form "
+             "clusters; each cluster of a MatTypeIdx moves to a material of its own")
       .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
       .value("computeColinearNormals", &MpmSection::oneNormal, true, "1",
              "for contacts of type friction, friction_bard and approach: true: bodies that meet at a node share one "
@@ -261,6 +265,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.loadsAtCorners = read.loadsAtCorners;
   method.sharesVolume = read.sharesVolume;
   method.turnsPressures = read.turnsPressures;
+  method.isGranular = read.isGranular;
   return method;
 }
 
@@ -340,6 +345,9 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   problem.method.limitsDeformation = !problem.motion;
   problem.insertions = readEntering(read, root, diagnostics);
   nameMaterials(problem.materials);
+  if (besideGas && read.isGranular)
+    diagnostics.error(root.child("MPM")->child("DoGranularMPM").value(), "is not available with a gas");
+  settleGrains(problem, read.isGranular, root, diagnostics);
   checkHeat(problem, root, diagnostics);
   checkProblem(problem, root, diagnostics);
   for (const Material& material : problem.materials) {

@@ -3,6 +3,7 @@
 #include "components/mpm/solid/explicit/tasks/integrate_acceleration.hpp"
 #include "components/mpm/solid/explicit/tasks/prescribe_motion.hpp"
 #include "components/mpm/solid/explicit/tasks/transmit_force.hpp"
+#include "components/mpm/solid/grains/form_clusters.hpp"
 
 // The schedule of SolidMpm, which can be read as the method.
 
@@ -24,6 +25,14 @@ void SolidMpm<D>::scheduleCarefulTimeAdvance(TaskList& tasks) const {
 template <int D>
 std::string SolidMpm<D>::aboutCarefulSteps() const {
   return "velocities are interpolated to the nodes once more for the stresses (stress_update musl)";
+}
+
+template <int D>
+void SolidMpm<D>::scheduleNextMaterials(TaskList& tasks) const {
+  const Method& method = problem_.method;
+  if (method.isGranular)
+    tasks.perRankAcrossMaterials("mpm::formClusters", formClusters<D>, problem_.materials, togetherOnRanks(),
+                                 with(method.commonSize), all<ClusterSources<D>>(method.keepsSizes));
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/explicit/explicit_tasks.hpp"
 #include "components/mpm/solid/explicit/solids_of.hpp"
+#include "core/simulation/between_materials.hpp"
 #include "core/simulation/careful_steps.hpp"
 
 namespace tushar::mpm::solid {
@@ -12,7 +13,7 @@ namespace tushar::mpm::solid {
 /// solid_mpm.cpp contains the schedule and can be read as the method; the bodies of its tasks are in tasks/. Tasks that
 /// use shape functions come from the interpolator's module; all others are in solids_of.cpp.
 template <int D>
-class SolidMpm : public SolidsOf<D>, public simulation::CarefulSteps {
+class SolidMpm : public SolidsOf<D>, public simulation::CarefulSteps, public simulation::MovesBetweenMaterials {
  public:
   /// `bodies` must outlive this object.
   SolidMpm(Problem problem, const ExplicitTasks<D>& bodies)
@@ -23,6 +24,7 @@ class SolidMpm : public SolidsOf<D>, public simulation::CarefulSteps {
   /// F and the stress with usl may be far larger than that of any particle; with musl it is a mean of their velocities.
   void scheduleCarefulTimeAdvance(TaskList& tasks) const override;
   std::string aboutCarefulSteps() const override;
+  void scheduleNextMaterials(TaskList& tasks) const override;
 
  private:
   using Base = SolidsOf<D>;

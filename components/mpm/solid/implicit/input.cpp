@@ -2,6 +2,7 @@
 #include "components/mpm/boundary_labels.hpp"
 
 #include "components/mpm/boundary_labels.hpp"
+#include "components/mpm/solid/grains/grain_input.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
@@ -121,6 +122,7 @@ const Schema<Section>& sectionSchema() {
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
         .ignored("minimum_particle_mass", "no particle is removed")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
+    refuseSwitch(mpm, "DoGranularMPM", "only explicit steps let grains separate");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have artificial viscosity");
     refuseSwitch(mpm, "UsePrescribedDeformation", "only explicit steps can follow a prescribed deformation");
     refuseSwitch(mpm, "InsertParticles", "give every body its position at the start");
@@ -284,6 +286,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   problem.start.axisymmetric = read.axisymmetric;
   problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
   nameMaterials(problem.materials);
+  settleGrains(problem, false, root, diagnostics);
   checkHeat(problem, root, diagnostics);
   refuseWithoutTangent(problem, root, diagnostics);
   refuseExplicitOnly(problem, root, diagnostics);

@@ -167,7 +167,7 @@ void standIn(const Patch& patch, const Material& material, ParticleMaker& maker,
       inside.upper[d] = (cell[d] + 1) << halvings;
     }
     inside = inside.grown(around, D).intersect(finest.cells());
-    ParticleId inCell = 0;
+    ParticleId inCell = material.firstIdInCell;
     for (const Body& body : material.bodies)
       if (const auto found = particleIn<D>(finest, body, inside)) {
         maker.add(cell, idOf<D>(level, cell, inCell++, body.where));
@@ -177,10 +177,11 @@ void standIn(const Patch& patch, const Material& material, ParticleMaker& maker,
 }
 
 /// Calls `visit(cell, body, inCell)` for the cells and bodies of a patch that may have particles at the start: cell by
-/// cell, with the bodies in their order; `inCell` is 0 for the first body of a cell. A cell further than `around` from
+/// cell, with the bodies in their order; `inCell` is `firstInCell` for the first body of a cell. A cell further than `around` from
 /// the patch is not visited, and one that the bounds of a body do not reach only if particles are displaced.
 template <int D, class Visit>
-void forEachCellAndBody(const Patch& patch, const std::vector<Body>& bodies, int around, Visit&& visit) {
+void forEachCellAndBody(const Patch& patch, const std::vector<Body>& bodies, ParticleId firstInCell, int around,
+                        Visit&& visit) {
   const Box cells = patch.cellsWithin(around);
   std::vector<std::pair<const Body*, Box>> all, ofRow;
   for (const Body& body : bodies) {
@@ -196,7 +197,7 @@ void forEachCellAndBody(const Patch& patch, const std::vector<Body>& bodies, int
       if (one.second.contains(at)) ofRow.push_back(one);
     }
     for (int k = 0; k < count && !ofRow.empty(); ++k, ++cell[0]) {
-      ParticleId inCell = 0;
+      ParticleId inCell = firstInCell;
       for (const auto& [body, box] : ofRow)
         if (box.contains(cell)) visit(cell, *body, inCell);
     }
@@ -218,7 +219,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   // A displaced particle may start in another cell than the one that made it, hence on another patch.
   const int around = cellsMovedAtStart(level, start);
   forEachCellAndBody<D>(
-      patch, material.bodies, around, [&](const Index<D>& cell, const Body& body, ParticleId& inCell) {
+      patch, material.bodies, material.firstIdInCell, around, [&](const Index<D>& cell, const Body& body, ParticleId& inCell) {
         if (body.seeds) {
           if (patch.cells().contains(cell)) addSeeds<D>(level, start, material, body, cell, inCell, maker, particles);
           return;

@@ -78,7 +78,7 @@ bool deformParticles(const Method& method, double dt, const StateUpdate<D>& u, i
 template <int D>
 void finishDeformation(const Material& material, const StateUpdate<D>& u, int first, int count,
                        Matrix3* velocityGradient) {
-  if (!u.localized && !u.volume && !u.velocityGradient) return;
+  if (!u.localized && !u.volume && !u.velocityGradient && !material.isStressFree) return;
   const bool keepsStress = u.stress && !material.model->dependsOnDeformationOnly();
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
@@ -86,6 +86,7 @@ void finishDeformation(const Material& material, const StateUpdate<D>& u, int fi
     Matrix3& now = u.deformation[p];
     if (u.localized && (*u.localized)[p]) material.erosion.restrain(before, now, velocityGradient[k]);
     if (keepsStress) forgetDistortion(now);
+    if (material.isStressFree && now.determinant() * *material.criticalDensity > material.density) now = before;
     if (u.volume) (*u.volume)[p] = (*u.oldVolume)[p] * (now.determinant() / before.determinant());
     if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient[k];
   }

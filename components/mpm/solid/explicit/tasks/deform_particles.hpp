@@ -76,8 +76,8 @@ template <int D>
 bool deformParticles(const Method& method, double dt, const StateUpdate<D>& u, int first, int count,
                      const Matrix3* velocityGradient);
 
-/// Completes the update of `count` particles with new F: restrains failed ones, and computes volumes, where they are
-/// stored.
+/// Completes the update of `count` particles with new F: restrains failed ones, keeps the F of stress-free ones that
+/// the step would bring below the critical density, and computes volumes, where they are stored.
 template <int D>
 void finishDeformation(const Material& material, const StateUpdate<D>& u, int first, int count,
                        Matrix3* velocityGradient);

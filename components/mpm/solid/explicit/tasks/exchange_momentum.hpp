@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/contact/plane_friction.hpp"
+#include "components/mpm/solid/contact/present.hpp"
 #include "components/mpm/solid/material.hpp"
 
 namespace tushar::mpm::solid {
@@ -18,9 +19,12 @@ void applyContact(const Patch& patch, const Contact& contact, double time, doubl
 /// Applies contacts other than stress-based friction, to velocities at the start of a step or at its end: Uintah's
 /// exMomInterpolated.
 template <int D>
-void exchangeMomentum(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
+void exchangeMomentum(const Patch& patch, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
                       Moment moment, double time, double dt, const Records& records,
                       const SeparatingPlanes<D>& planes) {
+  if (const auto present = presentIn(records); present.size() < records.size())
+    return exchangeMomentum<D>(patch, materials, contactsAmong(contacts, present, records.size()), moment, time, dt,
+                               onlyOf(records, present), onlyOf(planes, present));
   for (const Contact& contact : contacts)
     if (contact.actsTwice || moment == Moment::end) applyContact<D>(patch, contact, time, dt, records, planes);
 }
@@ -49,6 +53,10 @@ void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& mate
                            const std::vector<Contact>& contacts, const Acceleration& acceleration, double time,
                            double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction,
                            const TransmittedForces<D>& transmitted) {
+  if (const auto present = presentIn(records); present.size() < records.size())  // then no material transmits force
+    return exchangeMomentumAtEnd<D>(patch, materials, contactsAmong(contacts, present, records.size()), acceleration,
+                                    time, dt, onlyOf(records, present), onlyOf(planes, present), reaction,
+                                    onlyOf(transmitted, present));
   for (const auto& force : transmitted)
     if (force) force->fill(Vec<D>::Zero());
   for (const Contact& contact : contacts) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/mpm/solid/contact/friction.hpp"
+#include "components/mpm/solid/contact/present.hpp"
 #include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/transfer/cell_run.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
@@ -44,9 +45,9 @@ class MeetingPlaces {
   void add(const data::TouchedRows& rows, const NodeView<const NodeRecord>& record) {
     rows.forEachRow(box_, [&](Index3 node, int end) {
       const NodeRecord* at = record.values() + record.stored().offset(node);
-      std::uint8_t* count = bodies_.data() + box_.offset(node);
+      std::uint16_t* count = bodies_.data() + box_.offset(node);
       for (; node[0] < end; ++node[0], ++at, ++count)
-        *count = static_cast<std::uint8_t>(*count + ((*at)[lane::mass] > 0));
+        *count = static_cast<std::uint16_t>(*count + ((*at)[lane::mass] > 0));
     });
   }
   /// Whether bodies meet at a node of a cell, or of the `layers` around it.
@@ -59,7 +60,7 @@ class MeetingPlaces {
     bool any = false;
     if (!near.empty())
       forEach<3>(near.rowStarts(), [&](const Index3& row) {
-        const std::uint8_t* count = bodies_.data() + box_.offset(row);
+        const std::uint16_t* count = bodies_.data() + box_.offset(row);
         for (int k = 0; k < near.extent(0); ++k) any |= count[k] > 1;
       });
     return any;
@@ -67,7 +68,7 @@ class MeetingPlaces {
   /// Calls `visit(node)` for each of these nodes, given by three indices.
   template <class Visit>
   void forEachPlace(Visit&& visit) const {
-    const std::uint8_t* count = bodies_.data();
+    const std::uint16_t* count = bodies_.data();
     forEach<3>(box_, [&](const Index3& node) {
       if (*count++ > 1) visit(node);
     });
@@ -76,7 +77,7 @@ class MeetingPlaces {
   template <class Visit>
   void forEachOther(const data::TouchedRows& rows, Visit&& visit) const {
     rows.forEachRow(box_, [&](Index3 node, int end) {
-      const std::uint8_t* count = bodies_.data() + box_.offset(node);
+      const std::uint16_t* count = bodies_.data() + box_.offset(node);
       for (; node[0] < end; ++node[0])
         if (*count++ <= 1) visit(node);
     });
@@ -84,7 +85,7 @@ class MeetingPlaces {
 
  private:
   Box box_;
-  std::vector<std::uint8_t> bodies_;  ///< number of bodies at each node
+  std::vector<std::uint16_t> bodies_;  ///< number of bodies at each node
 };
 
 /// Extends a body beyond symmetry planes: no gradient points through the plane, and the volume counts twice.
@@ -134,9 +135,11 @@ void addSurface(const Patch& patch, const Material& material, const Vec3& common
 template <class Shape, int D = Shape::dimension>
 void computeSurface(const Patch& patch, const std::vector<Material>& materials, const Vec3& commonSize,
                     const std::vector<NodeView<const NodeRecord>>& records, const std::vector<SurfaceSources<D>>& of) {
-  MeetingPlaces<D> places(of.front().surface.box());
-  for (std::size_t m = 0; m < of.size(); ++m) places.add(touchedRows<D>(of[m].x, Shape::ghostNodes), records[m]);
-  for (std::size_t m = 0; m < of.size(); ++m) {
+  const std::vector<std::size_t> present = presentIn(records);
+  if (present.empty()) return;
+  MeetingPlaces<D> places(of[present.front()].surface.box());
+  for (const std::size_t m : present) places.add(touchedRows<D>(of[m].x, Shape::ghostNodes), records[m]);
+  for (const std::size_t m : present) {
     const auto clear = [&surface = of[m].surface](const Index3& node) {
       surface.values()[surface.stored().offset(node)] = SurfaceRecord{};
     };
@@ -148,9 +151,14 @@ void computeSurface(const Patch& patch, const std::vector<Material>& materials, 
 
 /// Applies friction between materials in contact, and computes its heat [J] if the scene needs it.
 template <int D>
-void exchangeByFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
+void exchangeByFriction(const Patch& patch, const std::vector<Material>& materials,
+                        const std::vector<Contact>& contacts,
                         Moment moment, int ghostNodes, const std::vector<ParticleView<const Vec<D>>>& x, double dt,
                         const Surfaces& surfaces, const Records& records, const FrictionHeats& heat) {
+  if (const auto present = presentIn(records); present.size() < records.size())
+    return exchangeByFriction<D>(patch, materials, contactsAmong(contacts, present, records.size()), moment, ghostNodes,
+                                 onlyOf(x, present), dt, onlyOf(surfaces, present), onlyOf(records, present),
+                                 onlyOf(heat, present));
   RowsOfNodes rows;
   for (const auto& ofMaterial : x) rows.push_back(&touchedRows<D>(ofMaterial, ghostNodes));
   for (const auto& ofMaterial : heat)

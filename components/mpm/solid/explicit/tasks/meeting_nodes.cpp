@@ -8,8 +8,9 @@ MeetingNodes<D>::MeetingNodes(const Box& nodes, const std::vector<Material>& mat
                               const std::vector<NodeView<const NodeRecord>>& records)
     : box(nodes), number(nodes.size(), -1) {
   const Precedence precedence(materials, contacts);
+  const std::vector<std::size_t> present = presentIn(records);
   forEach<D>(box, [&](const Index<D>& at) {
-    const int first = precedence.leader<D>(records, at);
+    const int first = precedence.leader<D>(records, present, at);
     if (first < 0) return;
     number[place(at)] = static_cast<int>(node.size());
     node.push_back(at);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "components/mpm/solid/contact/plane_friction.hpp"
+#include "components/mpm/solid/contact/present.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/node_record.hpp"
 
@@ -25,13 +26,14 @@ struct Precedence {
   }
 
   /// The index of the material with the most mass of those that meet at a node, or of the rigid one; -1 if fewer than
-  /// two meet.
+  /// two meet. `present` are the indices of the materials that have records.
   template <int D>
-  int leader(const std::vector<NodeView<const NodeRecord>>& records, const Index<D>& node) const {
+  int leader(const std::vector<NodeView<const NodeRecord>>& records, const std::vector<std::size_t>& present,
+             const Index<D>& node) const {
     double total = 0, most = 0, mostOfRigid = 1e-90;
-    for (const auto& record : records) total += record[node][lane::mass];
+    for (const std::size_t m : present) total += records[m][node][lane::mass];
     int meeting = 0, heaviest = -1, rigid = -1;
-    for (std::size_t m = 0; m < records.size(); ++m) {
+    for (const std::size_t m : present) {
       const double mass = records[m][node][lane::mass];
       if (!mayLead[m]) continue;
       if (isRigid[m] && mass > mostOfRigid) {

@@ -86,8 +86,10 @@ template <class Shape, int D = Shape::dimension>
 void separateBodies(const Patch& patch, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
                     const Vec3& commonSize, const std::vector<NodeView<const NodeRecord>>& records,
                     const std::vector<PlaneSources<D>>& of) {
-  MeetingNodes<D> nodes(of.front().normal.box(), materials, contacts, records);
-  for (std::size_t m = 0; m < of.size(); ++m) {
+  const std::vector<std::size_t> present = presentIn(records);
+  if (present.empty()) return;
+  MeetingNodes<D> nodes(of[present.front()].normal.box(), materials, contacts, records);
+  for (const std::size_t m : present) {
     of[m].normal.fill(Vec<D>::Zero());
     gatherParticles<Shape>(patch, commonSize, of[m], static_cast<int>(m), nodes);
   }
@@ -96,7 +98,7 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
     normals.push_back(normalAt<D>(patch, nodes, k));
     of[nodes.leader[k]].normal[nodes.node[k]] = normals.back();
   }
-  for (std::size_t m = 0; m < of.size(); ++m)
+  for (const std::size_t m : present)
     measureProminence<Shape>(patch, commonSize, static_cast<int>(m), nodes, normals, of[m]);
 }
 
@@ -116,13 +118,15 @@ void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSiz
   });
 }
 
-/// Computes whether each particle is initially at the surface of its body.
+/// Computes whether each particle is initially at the surface of its body. If bodies may split, any particle may come
+/// to be at a surface, and all count as if they were.
 template <int D>
 void findSurface(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
                  ParticleView<int> surface) {
   for (int p = 0; p < x.owned(); ++p) {
     const Vec3 place = patch.level().expandPoint<D>(x[p]);
     surface[p] = 1;
+    if (material.maySplit) continue;
     for (const Body& body : material.bodies)
       if (body.shape->contains(place)) surface[p] = isAtSurface(patch.level(), body, place) ? 1 : 0;
   }
