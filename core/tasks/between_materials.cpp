@@ -34,12 +34,7 @@ struct Gathering {
 class Mover {
  public:
   Mover(data::Warehouse& warehouse, int materials, std::string_view destination)
-      : warehouse_(warehouse), gatherings_(materials) {
-    for (int m = 0; m < materials; ++m) {
-      destinations_.push_back(warehouse.table().find(destination, m));
-      ids_.push_back(warehouse.table().find(data::particleId.name, m));
-    }
-  }
+      : warehouse_(warehouse), destination_(destination), gatherings_(materials) {}
 
   /// Finds the materials that particles leave or enter; returns the number of particles that move.
   long find() {
@@ -47,7 +42,7 @@ class Mover {
     for (const Patch& patch : patches())
       for (int m = 0; m < materials(); ++m) {
         const int count = set(m, patch).owned();
-        const int* to = count > 0 ? values<int>(Generation::fresh, destinations_[m], patch) : nullptr;
+        const int* to = count > 0 ? destinationsOf(m, patch) : nullptr;
         for (int p = 0; p < count; ++p) {
           if (to[p] == m) continue;
           check(to[p]);
@@ -93,6 +88,9 @@ class Mover {
   const T* values(Generation generation, int number, const Patch& patch) {
     return reinterpret_cast<const T*>(warehouse_.variable(generation, number, patch.id()).values);
   }
+  const int* destinationsOf(int material, const Patch& patch) {
+    return values<int>(Generation::fresh, warehouse_.table().find(destination_, material), patch);
+  }
   const data::Label& labelOf(const std::vector<int>& numbers) const {
     return *warehouse_.table()[*std::max_element(numbers.begin(), numbers.end())].label;
   }
@@ -106,8 +104,9 @@ class Mover {
     const Patch& patch = patches()[k];
     for (int m = 0; m < materials(); ++m) {
       if (!gatherings_[m].changes || set(m, patch).owned() == 0) continue;
-      const int* to = values<int>(Generation::fresh, destinations_[m], patch);
-      const ParticleId* ids = values<ParticleId>(Generation::old, ids_[m], patch);
+      const int* to = destinationsOf(m, patch);
+      const int numberOfIds = warehouse_.table().find(data::particleId.name, m);
+      const ParticleId* ids = values<ParticleId>(Generation::old, numberOfIds, patch);
       set(m, patch).forEachOccupied<3>(patch.cells(), [&](const Index3& cell, const ParticleRange& range) {
         for (const int p : range)
           gatherings_[to[p]].members[k].push_back({cell, patch.cells().offset(cell), ids[p], m, p});
@@ -162,8 +161,8 @@ class Mover {
   }
 
   data::Warehouse& warehouse_;
+  std::string_view destination_;
   std::vector<Gathering> gatherings_;
-  std::vector<int> destinations_, ids_;  ///< variables of each material
 };
 
 }  // namespace

@@ -281,7 +281,7 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
   for (const grid::Patch& patch : warehouse_->grid().patches()) {
     std::vector<TaskContext>& ofPatch = contexts.emplace_back();
     for (std::size_t m = 0; m < task.materials.size(); ++m)
-      ofPatch.emplace_back(*warehouse_, patch, static_cast<int>(m) + first, task.materials[m].accesses, at.time);
+      ofPatch.push_back(contextOf(task, patch, static_cast<int>(m) + first, at));
   }
   std::vector<TaskContext> patches;
   for (const std::vector<TaskContext>& ofPatch : contexts) {
@@ -302,8 +302,9 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {
   std::vector<TaskContext> contexts;
+  contexts.reserve(task.materials.size());
   for (std::size_t m = 0; m < task.materials.size(); ++m)
-    contexts.emplace_back(*warehouse_, patch, static_cast<int>(m), task.materials[m].accesses, at.time);
+    contexts.push_back(contextOf(task, patch, static_cast<int>(m), at));
   TaskContext all = contexts.front();
   all.setMaterials(contexts);
   located(task, patch.id(), -1, at, [&] { task.task.body(all); });

@@ -106,6 +106,8 @@ class Scheduler {
   void start(const TaskGraph& graph, int end, const StepInfo& at);
   void distributeOverThreads();
   void findAbsent(const TaskGraph& graph);
+  /// What a task accesses on a patch, for a material (-1: none). Materials without particles share one context.
+  TaskContext contextOf(const CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   /// Whether tasks run for a material (-1: no material).
   bool isPresent(int material) const { return !skips_ || material < 0 || is_present_[material]; }
   /// Those of the fills whose materials are present; valid until the next call.
@@ -152,6 +154,7 @@ class Scheduler {
   bool may_skip_ = false;                ///< whether graphs skip materials without particles
   bool skips_ = false;                   ///< whether the current graph skips materials
   std::vector<char> is_present_;         ///< for each material: whether it has particles
+  int first_absent_ = 0;                 ///< the first material without particles
   std::vector<BoundGhostFill> present_fills_;
   bool heard_stop_ = false;              ///< whether a rank from which this one receives values has stopped
   int level_ = -1;                       ///< the level on whose patches the graph runs; -1: all

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/tasks/scheduler.hpp"
 
 // Which materials have no particles, so that tasks need not run for them.
@@ -15,10 +17,17 @@ void Scheduler::findAbsent(const TaskGraph& graph) {
   for (int m = 0; m < graph.materials(); ++m)
     for (const grid::Patch& patch : warehouse_->grid().patches())
       if (warehouse_->particles(Generation::old, m, patch.id()).owned() > 0) is_present_[m] = 1;
-  if (warehouse_->ranks().isAlone()) return;
-  std::vector<double> onAny(is_present_.begin(), is_present_.end());
-  warehouse_->ranks().max(onAny);
-  for (std::size_t m = 0; m < onAny.size(); ++m) is_present_[m] = onAny[m] > 0;
+  if (!warehouse_->ranks().isAlone()) {
+    std::vector<double> onAny(is_present_.begin(), is_present_.end());
+    warehouse_->ranks().max(onAny);
+    for (std::size_t m = 0; m < onAny.size(); ++m) is_present_[m] = onAny[m] > 0;
+  }
+  first_absent_ = static_cast<int>(std::find(is_present_.begin(), is_present_.end(), 0) - is_present_.begin());
+}
+
+TaskContext Scheduler::contextOf(const CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
+  const int shown = isPresent(material) ? material : first_absent_;
+  return {*warehouse_, patch, shown, task.of(shown).accesses, at.time};
 }
 
 std::span<const BoundGhostFill> Scheduler::presentOf(const std::vector<BoundGhostFill>& fills) {

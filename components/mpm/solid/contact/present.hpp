@@ -4,7 +4,7 @@
 
 #include "components/mpm/solid/contact/contact.hpp"
 
-// Materials that have no particles at all have no values on nodes (see core/simulation/between_materials.hpp): tasks
+// Materials that have no particles at all have no values on nodes (see simulation::MovesBetweenMaterials): tasks
 // across materials leave them out, with their contacts.
 
 namespace tushar::mpm::solid {

@@ -60,7 +60,8 @@ class Bins {
   template <class Visit>
   void forEachNear(int k, Visit&& visit) const {
     const Index3 at = binOf(boxes_[k]);
-    forEach<3>(Box{{{-1, -1, -1}}, {{2, 2, 2}}}, [&](const Index3& shift) {
+    Box around{{}, Index3::filled(1)};
+    forEach<3>(around.grown(1, space_.dimension), [&](const Index3& shift) {
       Index3 bin = at + shift;
       for (int d = 0; d < 3; ++d) {
         if (space_.period[d] > 0 && bins_[d] > 1) bin[d] = (bin[d] + bins_[d]) % bins_[d];
