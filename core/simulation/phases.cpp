@@ -331,8 +331,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned advance = prune(lists.timeAdvance.tasks(), atEnd, true);
   if (smallerSteps) refuseSmallerSteps({&stable, &advance}, *smallerSteps);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
-  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend, &moves}, grid,
-                regrid.where);
+  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend, &moves}, grid, regrid.where);
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);

@@ -127,8 +127,8 @@ void RunReport::addProgress(Report& report) {
 
 void RunReport::addTasks(Report& report) {
   const Phases& phases = run_.phases;
-  for (const tasks::TaskGraph* graph :
-       {&phases.stableTimeStep, &phases.timeAdvance, &phases.carefulAdvance, &phases.nextMaterials, &phases.everyStep}) {
+  for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.carefulAdvance,
+                                        &phases.nextMaterials, &phases.everyStep}) {
     if (graph == &phases.carefulAdvance && run_.scheduler.relocation().lost().removed == 0) continue;
     for (const tasks::CompiledTask& task : graph->tasks()) {
       report.tasks.push_back({task.task.name, task.seconds});

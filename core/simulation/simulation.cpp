@@ -8,8 +8,8 @@
 
 #include "core/collect/gather.hpp"
 #include "core/report/error_norms.hpp"
-#include "core/simulation/kept_reductions.hpp"
 #include "core/simulation/between_materials.hpp"
+#include "core/simulation/kept_reductions.hpp"
 #include "core/solvers/solver.hpp"
 #include "core/tasks/between_materials.hpp"
 

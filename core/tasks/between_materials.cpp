@@ -96,7 +96,8 @@ class Mover {
   }
   void check(int material) const {
     if (material < 0 || material >= materials())
-      throw data::AccessError(fmt::format("a particle cannot move to material {}: there are {}", material, materials()));
+      throw data::AccessError(
+          fmt::format("a particle cannot move to material {}: there are {}", material, materials()));
   }
 
   /// Assigns the particles of a patch to the new sets, sorted by (cell, id).

@@ -159,7 +159,8 @@ void Scheduler::runTask(TaskGraph& graph, int number, const StepInfo& at) {
   CompiledTask& task = graph.tasks()[number];
   running_ = number;
   const bool exchanges = hasStopped() || !exchange_.movesNothing();
-  if (exchanges && task.sends >= 0 && task.sends < end_) exchange_.send(presentOf(graph.tasks()[task.sends].fills), hasStopped());
+  if (exchanges && task.sends >= 0 && task.sends < end_)
+    exchange_.send(presentOf(graph.tasks()[task.sends].fills), hasStopped());
   if (exchanges && !task.fills.empty()) {
     exchange_.begin(hasStopped());
     if (!task.mayStartEarly || hasStopped()) heard_stop_ = !exchange_.finish() || heard_stop_;
@@ -358,7 +359,8 @@ void Scheduler::allocateOutputs(const MaterialBinding& binding) {
 
 void Scheduler::free(const CompiledTask& task) {
   for (std::size_t m = 0; m < task.materials.size(); ++m)
-    if (m == 0 || isPresent(static_cast<int>(m) + firstMaterial(task)))  // the first one also frees what has no material
+    if (m == 0 ||
+        isPresent(static_cast<int>(m) + firstMaterial(task)))  // the first one also frees what has no material
       for (const int number : task.materials[m].freed) warehouse_->free(Generation::fresh, number);
 }
 

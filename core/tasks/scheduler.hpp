@@ -156,11 +156,11 @@ class Scheduler {
   std::vector<char> is_present_;         ///< for each material: whether it has particles
   int first_absent_ = 0;                 ///< the first material without particles
   std::vector<BoundGhostFill> present_fills_;
-  bool heard_stop_ = false;              ///< whether a rank from which this one receives values has stopped
-  int level_ = -1;                       ///< the level on whose patches the graph runs; -1: all
-  int runs_ = 0;                         ///< number of runs of a graph so far
-  int running_ = 0;                      ///< index in the graph of the task that is running
-  int end_ = 0;                          ///< end of the range of tasks to run
+  bool heard_stop_ = false;  ///< whether a rank from which this one receives values has stopped
+  int level_ = -1;           ///< the level on whose patches the graph runs; -1: all
+  int runs_ = 0;             ///< number of runs of a graph so far
+  int running_ = 0;          ///< index in the graph of the task that is running
+  int end_ = 0;              ///< end of the range of tasks to run
   Clock::time_point lap_started_;
   std::optional<mpi::Communicator> with_patches_;
 };

@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 struct GrainBox {
   ParticleId id = 0;
   int material = 0;
-  int type = 0;                         ///< type of its material; ids are unique within a type
+  int type = 0;                            ///< type of its material; ids are unique within a type
   std::array<double, 3> centre{}, half{};  ///< centre, and half of each edge [m]
 
   /// The order of boxes that does not depend on patches.

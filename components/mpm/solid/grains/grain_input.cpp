@@ -120,8 +120,7 @@ void forgetGrains(std::vector<Material>& materials, const std::vector<Element>& 
   }
   for (const Element& tag : tags)
     for (const char* name : grainTags)
-      if (const auto given = tag.child(name))
-        return diagnostics.note(*given, "does nothing without <DoGranularMPM>");
+      if (const auto given = tag.child(name)) return diagnostics.note(*given, "does nothing without <DoGranularMPM>");
 }
 
 }  // namespace
@@ -130,9 +129,10 @@ void addGrainTags(Schema<Material>& material) {
   material
       .optional("critical_density", &Material::criticalDensity, "kg/m^3",
                 "with <DoGranularMPM>: the density at which particles just touch", input::positive())
-      .value("stress_free", &Material::isStressFree, false, "1",
-             "with <DoGranularMPM>: F and the volume of a particle do not change in a step that would bring its density "
-             "below the critical one")
+      .value(
+          "stress_free", &Material::isStressFree, false, "1",
+          "with <DoGranularMPM>: F and the volume of a particle do not change in a step that would bring its density "
+          "below the critical one")
       .optional("MatTypeIdx", &Material::grainType, "1",
                 "with <DoGranularMPM>: materials with the same number exchange particles", input::nonNegative())
       .value("applied_contact_model", &Material::hasGrainContact, true, "1",

@@ -177,8 +177,9 @@ void standIn(const Patch& patch, const Material& material, ParticleMaker& maker,
 }
 
 /// Calls `visit(cell, body, inCell)` for the cells and bodies of a patch that may have particles at the start: cell by
-/// cell, with the bodies in their order; `inCell` is `firstInCell` for the first body of a cell. A cell further than `around` from
-/// the patch is not visited, and one that the bounds of a body do not reach only if particles are displaced.
+/// cell, with the bodies in their order; `inCell` is `firstInCell` for the first body of a cell. A cell further than
+/// `around` from the patch is not visited, and one that the bounds of a body do not reach only if particles are
+/// displaced.
 template <int D, class Visit>
 void forEachCellAndBody(const Patch& patch, const std::vector<Body>& bodies, ParticleId firstInCell, int around,
                         Visit&& visit) {
@@ -219,7 +220,8 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   // A displaced particle may start in another cell than the one that made it, hence on another patch.
   const int around = cellsMovedAtStart(level, start);
   forEachCellAndBody<D>(
-      patch, material.bodies, material.firstIdInCell, around, [&](const Index<D>& cell, const Body& body, ParticleId& inCell) {
+      patch, material.bodies, material.firstIdInCell, around,
+      [&](const Index<D>& cell, const Body& body, ParticleId& inCell) {
         if (body.seeds) {
           if (patch.cells().contains(cell)) addSeeds<D>(level, start, material, body, cell, inCell, maker, particles);
           return;

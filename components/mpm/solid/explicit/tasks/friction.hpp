@@ -152,9 +152,9 @@ void computeSurface(const Patch& patch, const std::vector<Material>& materials, 
 /// Applies friction between materials in contact, and computes its heat [J] if the scene needs it.
 template <int D>
 void exchangeByFriction(const Patch& patch, const std::vector<Material>& materials,
-                        const std::vector<Contact>& contacts,
-                        Moment moment, int ghostNodes, const std::vector<ParticleView<const Vec<D>>>& x, double dt,
-                        const Surfaces& surfaces, const Records& records, const FrictionHeats& heat) {
+                        const std::vector<Contact>& contacts, Moment moment, int ghostNodes,
+                        const std::vector<ParticleView<const Vec<D>>>& x, double dt, const Surfaces& surfaces,
+                        const Records& records, const FrictionHeats& heat) {
   if (const auto present = presentIn(records); present.size() < records.size())
     return exchangeByFriction<D>(patch, materials, contactsAmong(contacts, present, records.size()), moment, ghostNodes,
                                  onlyOf(x, present), dt, onlyOf(surfaces, present), onlyOf(records, present),
