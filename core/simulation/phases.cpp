@@ -236,6 +236,14 @@ tasks::TaskGraph carefulGraph(const tasks::TaskList& list, const Names& needed, 
   return {"carefulTimeAdvance", prune(list.tasks(), needed, true), grid, table};
 }
 
+tasks::TaskGraph refluxingGraph(const tasks::TaskList& list, const Names& wanted, const grid::Grid& grid,
+                                data::VariableTable& table) {
+  return {"after the steps of the next finer level", prune(list.tasks(), wanted, false), grid, table};
+}
+
+/// The tasks that find the materials to which particles move.
+Pruned movesOf(const tasks::TaskList& list) { return prune(list.tasks(), {std::string(nextMaterial.name)}, false); }
+
 /// Numbers the variables that the time loop itself reads.
 void numberSteps(bool bySmallerSteps, data::VariableTable& table) {
   table.number(data::delT, -1);
@@ -307,8 +315,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value());
   const Lists& lists = lists_;
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
-  totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));
-  const Names totals = namesOf(totals_);
+  const Names totals = namesOf(totals_ = totalsAmong(producedBy(lists.diagnostics.tasks())));
   const Wants wants = wantsOf(samplesOf(analyses), stepped);
 
   const Names decided = decidedBefore(lists.stableTimeStep.tasks());
@@ -322,7 +329,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
   const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
   Pruned mend = prune(mends.tasks(), stepped, false);
-  Pruned moves = prune(lists.nextMaterials.tasks(), {std::string(nextMaterial.name)}, false);
+  Pruned moves = movesOf(lists.nextMaterials);
   Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend, &moves});
   Names always = requiredByAll({&stable, &begin, &refine, &mend, &moves});
   Names atEnd = united(united(read, wants.ofState), tasks::registersOf(lists.timeAdvance));
@@ -347,8 +354,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), grid, table);
   refinement = tasks::TaskGraph("refinement", std::move(refine), grid, table);
   refined = tasks::TaskGraph("new finer cells", std::move(mend), grid, table);
-  refluxing = tasks::TaskGraph("after the steps of the next finer level", prune(lists.reflux.tasks(), stepped, false),
-                               grid, table);
+  refluxing = refluxingGraph(lists.reflux, stepped, grid, table);
   numberSteps(smallerSteps.has_value(), table);
   if (regrid.adaptive) widenForRegridding(lasting_, static_cast<int>(materials_.size()), table);
 }

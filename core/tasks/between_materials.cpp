@@ -67,8 +67,9 @@ class Mover {
 
   /// Moves a variable to the new sets.
   void carry(std::string_view name) {
-    std::vector<int> numbers;
-    for (int m = 0; m < materials(); ++m) numbers.push_back(warehouse_.table().find(name, m));
+    std::vector<int> numbers(gatherings_.size(), -1);
+    for (int m = 0; m < materials(); ++m)
+      if (gatherings_[m].changes) numbers[m] = warehouse_.table().find(name, m);
     if (std::all_of(numbers.begin(), numbers.end(), [](int number) { return number < 0; })) return;
     if (labelOf(numbers).centring != data::Centring::particle) return;
     std::vector<std::vector<std::byte>> gathered(gatherings_.size());
@@ -130,7 +131,8 @@ class Mover {
     filled.setOwned(static_cast<int>(members.size()));
   }
 
-  /// The values of a variable for the particles of a new set, patch by patch.
+  /// The values of a variable for the particles of a new set, patch by patch. `numbers` are those of the variable for
+  /// the materials that change.
   std::vector<std::byte> valuesOf(const Gathering& gathering, const std::vector<int>& numbers) {
     const std::size_t bytes = labelOf(numbers).bytes;
     std::vector<std::byte> gathered;

@@ -115,7 +115,8 @@ class RefusedGrains(RefusedSceneTest):
         for old, new, sentence in (
                 ("<critical_density>900</critical_density>", "",
                  "missing tag <critical_density> in <material>: needed with <DoGranularMPM>"),
-                ("<MatTypeIdx>0</MatTypeIdx>", "", "missing tag <MatTypeIdx> in <material>: needed with <DoGranularMPM>"),
+                ("<MatTypeIdx>0</MatTypeIdx>", "",
+                 "missing tag <MatTypeIdx> in <material>: needed with <DoGranularMPM>"),
                 ("<critical_density>900", "<critical_density>1001",
                  "found 1001, expected at most the <density>, 1000: otherwise the particles of a body do not touch"),
                 ("<bulk_modulus>100000", "<bulk_modulus>100001",

@@ -265,7 +265,6 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.loadsAtCorners = read.loadsAtCorners;
   method.sharesVolume = read.sharesVolume;
   method.turnsPressures = read.turnsPressures;
-  method.isGranular = read.isGranular;
   return method;
 }
 
@@ -345,9 +344,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   problem.method.limitsDeformation = !problem.motion;
   problem.insertions = readEntering(read, root, diagnostics);
   nameMaterials(problem.materials);
-  if (besideGas && read.isGranular)
-    diagnostics.error(root.child("MPM")->child("DoGranularMPM").value(), "is not available with a gas");
-  settleGrains(problem, read.isGranular, root, diagnostics);
+  settleGrains(problem, {read.isGranular, besideGas}, root, diagnostics);
   checkHeat(problem, root, diagnostics);
   checkProblem(problem, root, diagnostics);
   for (const Material& material : problem.materials) {

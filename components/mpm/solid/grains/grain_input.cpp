@@ -143,12 +143,15 @@ void addGrainTags(Schema<Material>& material) {
              "separate");
 }
 
-void settleGrains(Problem& problem, bool isGranular, const Element& root, Diagnostics& diagnostics) {
+void settleGrains(Problem& problem, const GrainSwitches& switches, const Element& root, Diagnostics& diagnostics) {
   const std::vector<Element> tags = materialTags(root);
-  if (!isGranular) return forgetGrains(problem.materials, tags, diagnostics);
+  problem.method.isGranular = switches.isGranular;
+  if (!switches.isGranular) return forgetGrains(problem.materials, tags, diagnostics);
   const std::size_t before = diagnostics.size();
   for (std::size_t m = 0; m < tags.size(); ++m) checkGrain(problem.materials[m], tags[m], diagnostics);
   checkTypes(problem, tags, diagnostics);
+  if (switches.besideGas)
+    diagnostics.error(root.child("MPM")->child("DoGranularMPM").value(), "is not available with a gas");
   refuseBeside(problem, root, diagnostics);
   if (diagnostics.size() == before) separateIds(problem.materials);
 }

@@ -286,7 +286,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   problem.start.axisymmetric = read.axisymmetric;
   problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
   nameMaterials(problem.materials);
-  settleGrains(problem, false, root, diagnostics);
+  settleGrains(problem, {}, root, diagnostics);
   checkHeat(problem, root, diagnostics);
   refuseWithoutTangent(problem, root, diagnostics);
   refuseExplicitOnly(problem, root, diagnostics);
