@@ -118,7 +118,10 @@ void checkMomentum(const ice::GasScene& scene, int solids, bool areRigid, const 
   });
   if (solids > 1)
     diagnostics.note(tag.child("momentum").value_or(tag),
-                     "does nothing between bodies: they interact through their <contact>");
+                     root.child("MaterialProperties")->child("MPM")->child("contact")
+                         ? "does nothing between bodies: they interact through their <contact>"
+                         : "does nothing between bodies: they interact through their <contact>, and pass through each "
+                           "other, as there is none");
 }
 
 /// The coefficients of heat exchange; none if the scene does not give one for each pair, or if a body has no specific

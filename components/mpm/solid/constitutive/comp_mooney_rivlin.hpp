@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -32,7 +34,8 @@ struct CompMooneyRivlin {
         input::Schema<CompMooneyRivlin>("comp_mooney_rivlin", "Compressible Mooney-Rivlin rubber.")
             .required("he_constant_1", &CompMooneyRivlin::c1, "Pa", "C1", input::positive())
             .required("he_constant_2", &CompMooneyRivlin::c2, "Pa", "C2", input::nonNegative())
-            .required("he_PR", &CompMooneyRivlin::poissonRatio, "1", "Poisson's ratio", input::between(-0.999, 0.4999));
+            .required("he_PR", &CompMooneyRivlin::poissonRatio, "1", "Poisson's ratio", input::between(-0.999, 0.4999))
+            .check(noteUnboundedEnergy);
     return schema;
   }
   State initialState() const { return {}; }
@@ -146,6 +149,16 @@ struct CompMooneyRivlin {
     return -2 * c3() / (i3 * i3 * i3) + 2 * c4() * (i3 - 1);
   }
   double c3() const { return 0.5 * c1 + c2; }
+  static void noteUnboundedEnergy(const CompMooneyRivlin& read, const input::Element& element,
+                                  input::Diagnostics& diagnostics) {
+    const std::optional<input::Element> given = element.child("he_PR");
+    if (!given || !(read.c1 > 0) || read.c4() >= 0) return;
+    const double least = (2 * read.c1 + 5 * read.c2) / (5 * read.c1 + 11 * read.c2);
+    diagnostics.note(
+        *given, fmt::format("{:g} makes C4 = {:.3g} Pa negative: the energy falls without limit as the volume grows, "
+                            "so large deformations may be unstable; it is not negative from {:.3g} on",
+                            read.poissonRatio, read.c4(), least));
+  }
   double c4() const {
     return 0.5 * (c1 * (5 * poissonRatio - 2) + c2 * (11 * poissonRatio - 5)) / (1 - 2 * poissonRatio);
   }

@@ -166,6 +166,21 @@ TEST(MaterialInput, NotesWhatDoesNotExpand) {
   EXPECT_NE(diagnostics.notes()[0].sentence.find("as in Uintah, only comp_neo_hook"), std::string::npos);
 }
 
+TEST(MaterialInput, NotesRubberWhoseEnergyHasNoLowerBound) {
+  const auto notesOf = [](const std::string& ratio) {
+    const Document document = input::documentOf(
+        sceneOf("comp_mooney_rivlin",
+                "<he_constant_1>603</he_constant_1><he_constant_2>301</he_constant_2><he_PR>" + ratio + "</he_PR>"));
+    Diagnostics diagnostics;
+    propertiesSchema().read(*document.root().child("MaterialProperties"), diagnostics);
+    EXPECT_FALSE(diagnostics.any());
+    return diagnostics.notes();
+  };
+  ASSERT_EQ(notesOf("0.42").size(), 1u);
+  EXPECT_NE(notesOf("0.42")[0].sentence.find("it is not negative from 0.428 on"), std::string::npos);
+  EXPECT_EQ(notesOf("0.43").size(), 0u);
+}
+
 /// Tags of visco_scram with one Maxwell element, followed by `more`.
 std::string crackingTags(const std::string& more) {
   std::string tags =
