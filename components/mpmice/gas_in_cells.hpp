@@ -149,6 +149,18 @@ template <int D>
                        "", "c.density", level.cellNumber<D>(cell));
 }
 
+/// Throws NumericalError for impossible contents of a cell that bodies fill: its mass [kg/m³] and internal energy
+/// [J/m³], both per volume of the cell.
+template <int D>
+[[noreturn]] void refuseHole(const Level& level, const Index<D>& cell, double mass, double internal) {
+  const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
+  throw NumericalError(
+      fmt::format("the gas in a cell that bodies fill became unphysical: {:.6g} kg/m^3 with {:.6g} J/m^3 of internal "
+                  "energy, per volume of the cell, at ({:g}, {:g}, {:g}) m",
+                  mass, internal, at[0], at[1], at[2]),
+      "", "c.density", level.cellNumber<D>(cell));
+}
+
 inline constexpr auto readsOld = [](const auto& label, int ghost) { return requiresOld(label, ghost); };
 inline constexpr auto readsNew = [](const auto& label, int ghost) { return requiresNew(label, ghost); };
 

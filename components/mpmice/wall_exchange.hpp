@@ -256,6 +256,7 @@ class WallExchange {
   }
   Passing passingAt(const Index<D>& cell) const {
     Passing volumes;
+    if (isClosedPore(cell)) return volumes;  // it receives nothing, so it has nothing to pass on
     forEachFollowing(cell, [&](int axis, const Index<D>& neighbour, double volume) {
       const auto d = static_cast<std::size_t>(axis);
       if (volume < 0)

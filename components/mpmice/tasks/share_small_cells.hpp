@@ -230,6 +230,7 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
   if (free < leastFreeVolume && mass > 0 && (internal >= 0 || gas.law)) return;
   const double density = mass / free, last = gas.last(density, internal / free), stiff = gas.heat(density, last);
   if (density > 0 && stiff > 0 && std::isfinite(stiff)) return;
+  if (free < leastFreeVolume) refuseHole<D>(level, cell, mass, internal);
   refuseGas<D>(level, gas, cell, free, density, last);
 }
 
