@@ -238,7 +238,7 @@ tasks::TaskGraph carefulGraph(const tasks::TaskList& list, const Names& needed, 
 
 tasks::TaskGraph refluxingGraph(const tasks::TaskList& list, const Names& wanted, const grid::Grid& grid,
                                 data::VariableTable& table) {
-  return {"after the steps of the next finer level", prune(list.tasks(), wanted, false), grid, table};
+  return tasks::TaskGraph("after the steps of the next finer level", prune(list.tasks(), wanted, false), grid, table);
 }
 
 /// The tasks that find the materials to which particles move.
