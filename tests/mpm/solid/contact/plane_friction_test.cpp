@@ -156,7 +156,7 @@ TEST(Precedence, IsOfTheHeaviestUnlessOneIsRigidOrMayNot) {
   for (const auto& one : bodies.records) records.emplace_back(one.data(), bodies.nodes);
   const Index<2> node{{1, 1}};
   const auto leader = [&](const std::vector<Contact>& contacts = {}) {
-    return Precedence(materials, contacts).leader<2>(records, node);
+    return Precedence(materials, contacts).leader<2>(records, {0, 1}, node);
   };
   EXPECT_EQ(leader(), 0);
   materials[1].isRigid = true;
@@ -167,7 +167,8 @@ TEST(Precedence, IsOfTheHeaviestUnlessOneIsRigidOrMayNot) {
   bodies.contact.type = Contact::Type::specifiedFriction;
   bodies.contact.master = 1;
   EXPECT_EQ(leader({bodies.contact}), 1) << "masters are rigid";
-  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, Index<2>{{0, 0}})), -1);
+  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, {0, 1}, Index<2>{{0, 0}})), -1);
+  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, {0}, node)), -1) << "the other has no particles";
 }
 
 }  // namespace
