@@ -75,6 +75,9 @@ CASES = {
     "oblique, strong": (oblique(3, (*hot(1e4), f"{BODY}/density=1000"))[0], 5e-3, 1e-3, oblique(3)[1]),
     "fast disc": ((*PLANE, f"{BODY}/geom_object/velocity=[5,0,0]", f"{BODY}/density=1000"), .1, None, DISC),
     "soft disc": ((*PLANE, *hot(100), *elastic(300)), .02, None, DISC),
+    "soft block, into walls": ((*PLANE, *elastic(1000), f"{BODY}/geom_object/velocity=[2,1.3,0]",
+                                f"{BODY}/geom_object/box/min=[1.1,1.1,0]", f"{BODY}/geom_object/box/max=[1.7,1.7,1]",
+                                f"{BODY}/density=33", "Grid/Level/Box/resolution=[24,24,1]"), .4, None),
 }
 
 
