@@ -177,7 +177,7 @@ TEST(MaterialInput, NotesRubberWhoseEnergyHasNoLowerBound) {
     return diagnostics.notes();
   };
   ASSERT_EQ(notesOf("0.42").size(), 1u);
-  EXPECT_NE(notesOf("0.42")[0].sentence.find("it is not negative from 0.428 on"), std::string::npos);
+  EXPECT_NE(notesOf("0.42")[0].sentence.find("it is not negative from 0.429 on"), std::string::npos);
   EXPECT_EQ(notesOf("0.43").size(), 0u);
 }
 
