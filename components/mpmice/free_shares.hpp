@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstring>
+#include <limits>
 
 #include "components/mpmice/labels.hpp"
 #include "components/mpmice/near_bodies.hpp"
@@ -53,8 +55,10 @@ class TakenShares {
   /// Number of cells of the window along each axis: the largest number that a box may reach.
   static constexpr int width = 4;
   static_assert(2 * longestEdge <= width - 1);
-  /// A number for each cell of the window along one axis.
-  using Along = std::array<double, width>;
+  /// The lengths of a box in the cells of the window along one axis, and the weights of their lower faces.
+  struct Along {
+    std::array<double, width> inside, hat;
+  };
   /// The sums for a row of the window: the filled volume and, for each axis, what is covered of the lower faces.
   struct Row {
     Quad filled, covered[D];
@@ -74,31 +78,29 @@ class TakenShares {
     for (int d = 0; d < D; ++d) window_[d] = reach.lower[d];
   }
   void addTo(const Box& reach, const ParticleBox<D>& box) {
-    Quad inside[D], hat[D];  // lengths in the cells of the window, and weights of their lower faces
-    for (int d = 0; d < D; ++d) {
+    Quad inside{}, hat{};           // as in Along, for the first axis
+    std::array<Along, D> across{};  // for the others
+    for (int d = D - 1; d >= 0; --d) {
       const Quad faces = Quad{0, 1, 2, 3} + window_[d];
-      inside[d] = box.lengthsIn(d, faces);
-      hat[d] = box.hatsAt(d, faces);
-    }
-    for (int d = 0; d < D; ++d) {
+      inside = box.lengthsIn(d, faces);
+      hat = box.hatsAt(d, faces);
+      if (d > 0) {
+        std::memcpy(across[d].inside.data(), &inside, sizeof(inside));
+        std::memcpy(across[d].hat.data(), &hat, sizeof(hat));
+      }
       lower_[d] = std::min(lower_[d], reach.lower[d] - window_[d]);
       upper_[d] = std::max(upper_[d], reach.upper[d] - window_[d]);
     }
     if constexpr (D == 1) {
-      rows_[0].filled += inside[0];
-      rows_[0].covered[0] += hat[0];
+      rows_[0].filled += inside;
+      rows_[0].covered[0] += hat;
     } else {
-      Along across[2 * D];
-      for (int d = 1; d < D; ++d) {
-        std::memcpy(&across[2 * d], &inside[d], sizeof(Quad));
-        std::memcpy(&across[2 * d + 1], &hat[d], sizeof(Quad));
-      }
-      addRows(reach, inside[0], hat[0], across);
+      addRows(reach, inside, hat, across);
     }
   }
-  void addRows(const Box& reach, const Quad& inside, const Quad& hat, const Along* across) {
+  void addRows(const Box& reach, const Quad& inside, const Quad& hat, const std::array<Along, D>& across) {
     for (int j = reach.lower[1] - window_[1]; j < reach.upper[1] - window_[1]; ++j) {
-      const double inY = across[2][j], hatY = across[3][j];
+      const double inY = across[1].inside[j], hatY = across[1].hat[j];
       if constexpr (D == 2) {
         Row& row = rows_[j];
         row.filled += inside * inY;
@@ -106,12 +108,12 @@ class TakenShares {
         row.covered[1] += inside * hatY;
       } else {
         for (int k = reach.lower[2] - window_[2]; k < reach.upper[2] - window_[2]; ++k) {
-          const double inZ = across[4][k];
+          const double inZ = across[2].inside[k];
           Row& row = rows_[k * width + j];
           row.filled += inside * (inY * inZ);
           row.covered[0] += hat * (inY * inZ);
           row.covered[1] += inside * (hatY * inZ);
-          row.covered[2] += inside * (inY * across[5][k]);
+          row.covered[2] += inside * (inY * across[2].hat[k]);
         }
       }
     }
@@ -150,7 +152,8 @@ class TakenShares {
   }
 
   FreeShares<D> free_;
-  Index<D> origin_{}, window_{};  ///< the cell of the boxes, and the lowest cell of the window relative to it
+  Index<D> origin_ = Index<D>::filled(std::numeric_limits<int>::min());  ///< the cell of the boxes; at first, none
+  Index<D> window_{};                                   ///< the lowest cell of the window, relative to that cell
   Index<D> lower_ = Index<D>::filled(width), upper_{};  ///< the cells of the window that are not 0
   std::array<Row, D == 1 ? 1 : D == 2 ? width : width * width> rows_{};
 };

@@ -111,6 +111,25 @@ TYPED_TEST(BodiesAlongAxes, OfOneCellTakeTheSameTogetherAsAlone) {
   }
 }
 
+/// On another patch, a cell may be the first one with particles, or not.
+TYPED_TEST(BodiesAlongAxes, TakeTheSameBitsWhateverWasTakenBefore) {
+  constexpr int D = TypeParam::value;
+  for (const bool isFirst : {true, false}) {
+    Shares<D> shares(9), reference(9);
+    if (!isFirst) shares.taken.take(Index<D>::filled(6), {Vec<D>::Constant(0.5), Vec<D>::Constant(0.3)});
+    reference.taken.take(Index<D>::filled(7), {Vec<D>::Constant(0.5), Vec<D>::Constant(0.3)});
+    for (const double middle : {0.7, 0.3, 0.9, 0.1, 0.6})
+      for (Shares<D>* one : {&shares, &reference})
+        one->taken.take(Index<D>{}, {Vec<D>::Constant(middle), Vec<D>::Constant(0.31 + 0.1 * middle)});
+    shares.taken.settle();
+    reference.taken.settle();
+    forEach<D>(cube<D>(3), [&](const Index<D>& cell) {
+      EXPECT_EQ(shares.volume.seen()[cell], reference.volume.seen()[cell]);
+      EXPECT_EQ(shares.coverage.seen()[cell], reference.coverage.seen()[cell]);
+    });
+  }
+}
+
 TYPED_TEST(BodiesAlongAxes, ThatOverlapLeaveNoLessThanNothing) {
   constexpr int D = TypeParam::value;
   Shares<D> shares(3);
