@@ -3,35 +3,31 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace tushar::tasks {
 
-/// Copies one value; optimised for values of one, two, three, four, six and nine numbers, which are the most frequent
-/// sizes.
-inline void copyValue(const std::byte* from, std::byte* to, std::size_t bytes) {
+/// Calls `visit(bytes)` with the size of a value, as a constant for values of one, two, three, four, six and nine
+/// numbers, which are the most frequent sizes.
+template <class Visit>
+inline void withSize(std::size_t bytes, Visit&& visit) {
   constexpr std::size_t number = sizeof(double);
   switch (bytes) {
     case number:
-      std::memcpy(to, from, number);
-      break;
+      return visit(std::integral_constant<std::size_t, number>());
     case 2 * number:
-      std::memcpy(to, from, 2 * number);
-      break;
+      return visit(std::integral_constant<std::size_t, 2 * number>());
     case 3 * number:
-      std::memcpy(to, from, 3 * number);
-      break;
+      return visit(std::integral_constant<std::size_t, 3 * number>());
     case 4 * number:
-      std::memcpy(to, from, 4 * number);
-      break;
+      return visit(std::integral_constant<std::size_t, 4 * number>());
     case 6 * number:
-      std::memcpy(to, from, 6 * number);
-      break;
+      return visit(std::integral_constant<std::size_t, 6 * number>());
     case 9 * number:
-      std::memcpy(to, from, 9 * number);
-      break;
+      return visit(std::integral_constant<std::size_t, 9 * number>());
     default:
-      std::memcpy(to, from, bytes);
+      return visit(bytes);
   }
 }
 
@@ -42,7 +38,7 @@ inline void moveRun(const Run& run, const std::byte* from, std::byte* to, std::s
   from += static_cast<std::size_t>(run.from) * bytes;
   if (to == from) return;
   if (run.count == 1)
-    copyValue(from, to, bytes);
+    withSize(bytes, [&](auto size) { std::memcpy(to, from, size); });
   else
     std::memmove(to, from, static_cast<std::size_t>(run.count) * bytes);
 }

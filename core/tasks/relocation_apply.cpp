@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "core/tasks/move_runs.hpp"
@@ -23,25 +22,6 @@ void keepSet(data::Warehouse& warehouse, int material, const Patch& patch) {
   ParticleSet& before = warehouse.particles(Generation::old, material, patch.id());
   before.forgetGhosts();
   std::swap(before, warehouse.particles(Generation::fresh, material, patch.id()));
-}
-
-/// Calls `visit(bytes)` with the size of a value, as a constant if it is one of the most frequent ones (see copyValue).
-template <class Visit>
-void withSize(std::size_t bytes, const Visit& visit) {
-  switch (bytes) {
-    case sizeof(double):
-      return visit(std::integral_constant<std::size_t, sizeof(double)>());
-    case 2 * sizeof(double):
-      return visit(std::integral_constant<std::size_t, 2 * sizeof(double)>());
-    case 3 * sizeof(double):
-      return visit(std::integral_constant<std::size_t, 3 * sizeof(double)>());
-    case 6 * sizeof(double):
-      return visit(std::integral_constant<std::size_t, 6 * sizeof(double)>());
-    case 9 * sizeof(double):
-      return visit(std::integral_constant<std::size_t, 9 * sizeof(double)>());
-    default:
-      return visit(bytes);
-  }
 }
 
 }  // namespace
@@ -236,8 +216,10 @@ void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
   withSize(move.bytes, [&](auto bytes) {
     for (const Entry& entry : moves.entries) {
       const int source = moves.incoming[entry.incoming].from;
-      const std::byte* from = packed + static_cast<std::size_t>(source) * bytes;
-      if (source < 0) {
+      const std::byte* from = nullptr;
+      if (source >= 0) {
+        from = packed + static_cast<std::size_t>(source) * bytes;
+      } else {
         const Arrival& arrival = moves.arrivals[-1 - source];
         const std::size_t at = arrival.place;
         from =
