@@ -241,6 +241,12 @@ tasks::TaskGraph refluxingGraph(const tasks::TaskList& list, const Names& wanted
   return tasks::TaskGraph("after the steps of the next finer level", prune(list.tasks(), wanted, false), grid, table);
 }
 
+/// The tasks that correct the values of newly refined cells; none if cells are refined at most at the start.
+Pruned mendsOf(const tasks::TaskList& list, const RegridSettings& regrid, const Names& wanted) {
+  const tasks::TaskList mends = regrid.adaptive && !regrid.once ? list : tasks::TaskList();
+  return prune(mends.tasks(), wanted, false);
+}
+
 /// The tasks that find the materials to which particles move.
 Pruned movesOf(const tasks::TaskList& list) { return prune(list.tasks(), {std::string(nextMaterial.name)}, false); }
 
@@ -315,7 +321,8 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value());
   const Lists& lists = lists_;
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
-  const Names totals = namesOf(totals_ = totalsAmong(producedBy(lists.diagnostics.tasks())));
+  totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));
+  const Names totals = namesOf(totals_);
   const Wants wants = wantsOf(samplesOf(analyses), stepped);
 
   const Names decided = decidedBefore(lists.stableTimeStep.tasks());
@@ -327,8 +334,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
   Pruned end = prune(lists.diagnostics.tasks(), united(totals, measuredBy(analyses, reported_)), false);
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
-  const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
-  Pruned mend = prune(mends.tasks(), stepped, false);
+  Pruned mend = mendsOf(lists.refine, regrid, stepped);
   Pruned moves = movesOf(lists.nextMaterials);
   Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend, &moves});
   Names always = requiredByAll({&stable, &begin, &refine, &mend, &moves});

@@ -201,13 +201,13 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   const bool mayAsk = task.recomputeTimeStep >= 0, isOnce = task.task.acrossMaterials || task.task.perRank;
   const int first = isOnce ? -1 : firstMaterial(task);
   const int end = first + (isOnce ? 1 : static_cast<int>(task.materials.size()));
-  for (int m = first; m < end && !heard_stop_ && (mayAsk || !hasStopped()); ++m)
-    if (!isPresent(m))
-      continue;
-    else if (task.task.perRank)
+  for (int m = first; m < end && !heard_stop_ && (mayAsk || !hasStopped()); ++m) {
+    if (!isPresent(m)) continue;
+    if (task.task.perRank)
       threads_.alone([&] { runOnRank(task, at); }, trace::Kind::task, task.task.name);
     else
       runOnPatches(task, m, at);
+  }
   shareFaces(task);
   if (const auto factor = factorOf(task))
     outcome_.merge({running_, Outcome::Kind::shortensStep, 0, 0, warehouse_->ranks().rank(), *factor, {}});
