@@ -1,5 +1,4 @@
 #include "components/mpm/solid/implicit/input.hpp"
-#include "components/mpm/boundary_labels.hpp"
 
 #include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/grains/grain_input.hpp"
