@@ -88,12 +88,6 @@ struct Footprint {
   template <int Axis>
   using Field = std::array<LanesVec<D>, (1 << (Axis + 1))>;
 
-  /// Calls `visit(k, w, f)` for each node k of the footprint, with its weights w and the field values f at the node.
-  template <class Visit>
-  void forEachWeight(const Field<D - 1>& field, Visit&& visit) const {
-    Index<D> k;
-    weights<D - 1>(k, Lanes(1), field, visit);
-  }
   /// Calls `visit(k, w, field)` for each row of nodes along the first axis: `k` is its first node, `w` the product of
   /// the weights along the other axes, `field` the field along the row.
   template <class Visit>
@@ -190,19 +184,6 @@ struct Footprint {
         visit(k, share);
       else
         parts<Axis - 1>(k, share, visit);
-    }
-  }
-
-  template <int Axis, class Visit>
-  void weights(Index<D>& k, const Lanes& weight, const Field<Axis>& field, Visit& visit) const {
-    const auto& span = along[Axis];
-    for (k[Axis] = 0; k[Axis] < span.nodes(); ++k[Axis]) {
-      const std::size_t at = k[Axis];
-      const Lanes w = weight * span.weight[at];
-      if constexpr (Axis == 0)
-        visit(k, w, LanesVec<D>(field[0] + span.arm[at] * field[1]));
-      else
-        weights<Axis - 1>(k, w, slice<Axis>(field, span.arm[at]), visit);
     }
   }
 };

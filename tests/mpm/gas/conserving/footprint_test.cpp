@@ -157,7 +157,9 @@ TEST(Footprint, IsTheProductOfItsSpans) {
   Footprint<3>::Field<2> still;
   still.fill(LanesVec<3>::Zero());
   footprint.forEachPart([&](const Index<3>&, const Lanes& part) { parts += part; });
-  footprint.forEachWeight(still, [&](const Index<3>&, const Lanes& w, const LanesVec<3>&) { weights += w; });
+  footprint.forEachRowOfNodes(still, [&](const Index<3>&, const Lanes& w, const auto&) {
+    for (int k = 0; k < footprint.along[0].nodes(); ++k) weights += w * footprint.along[0].weight[k];
+  });
 
   EXPECT_NEAR(parts[0], 1, 1e-14);
   EXPECT_NEAR(weights[0], 1, 1e-14);
@@ -169,11 +171,14 @@ TEST(Footprint, EvaluatesMultilinearFieldsAtTheNodes) {
   const Footprint<2> footprint = footprintOf<2>(level, centre, Vec<2>(0.15, 0.12));
   const Footprint<2>::Field<1> field{LanesVec<2>(mean.cast<Lanes>()), alongX.cast<Lanes>(), alongY.cast<Lanes>(),
                                      mixed.cast<Lanes>()};
-  footprint.forEachWeight(field, [&](const Index<2>& k, const Lanes&, const LanesVec<2>& value) {
-    const double x = level.nodePosition(0, footprint.along[0].first[0] + k[0]) - centre[0];
-    const double y = level.nodePosition(1, footprint.along[1].first[0] + k[1]) - centre[1];
-    const Vec<2> there = mean + x * alongX + y * alongY + x * y * mixed;
-    for (int d = 0; d < 2; ++d) EXPECT_NEAR(value[d][0], there[d], 1e-14);
+  footprint.forEachRowOfNodes(field, [&](const Index<2>& row, const Lanes&, const Footprint<2>::Field<0>& along) {
+    const double y = level.nodePosition(1, footprint.along[1].first[0] + row[1]) - centre[1];
+    for (int k = 0; k < footprint.along[0].nodes(); ++k) {
+      const double x = level.nodePosition(0, footprint.along[0].first[0] + k) - centre[0];
+      const Vec<2> there = mean + x * alongX + y * alongY + x * y * mixed;
+      const LanesVec<2> value = along[0] + footprint.along[0].arm[k] * along[1];
+      for (int d = 0; d < 2; ++d) EXPECT_NEAR(value[d][0], there[d], 1e-14);
+    }
   });
 }
 
