@@ -173,6 +173,8 @@ inline constexpr ReductionLabel<Sum> gasMass{"GasMass", "kg", "mass of the gas"}
 inline constexpr ReductionLabel<VectorSum> gasMomentum{"GasMomentum", "kg m/s", "momentum of the gas"};
 inline constexpr ReductionLabel<Sum> gasEnergy{"GasEnergy", "J", "internal and kinetic energy of the gas"};
 inline constexpr ReductionLabel<Sum> gasKineticEnergy{"GasKineticEnergy", "J", "kinetic energy of the gas"};
+inline constexpr ReductionLabel<Maximum> diffusivityAtStart{"GasDiffusivityAtStart", "m^2/s",
+                                                            "largest diffusivity of the gas at the start of the run"};
 inline constexpr ReductionLabel<VectorSum> forceOnBodies{"GasForceOnBodies", "N",
                                                          "force of the gas on all bodies, above reference_pressure"};
 inline constexpr ReductionLabel<Sum> powerOnBodies{"GasPowerOnBodies", "W", "power of the gas on all bodies"};

@@ -70,6 +70,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   for (const auto& one : scalars_)
     tasks.perPatch("ice::initializeScalar", ice::initializeScalar<D>, with(one.get()), requiresNew(c::density),
                    computes(one->held()));
+  if (settings_.diffusion.acts())
+    tasks.perPatch("mpmice::measureDiffusivity", measureDiffusivity<D>, with(settings_), gasIn(readsNew, {}),
+                   computes(total::diffusivityAtStart));
   if (settings_.implicit)
     tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_), gasIn(readsNew, {}),
                    computes(c::pressureAtEnd));
@@ -166,7 +169,8 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::addDiffusion", settings_.diffusion.varies() ? addVaryingDiffusion<D> : addDiffusion<D>,
                    with(settings_), gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
-                   modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy), all<RimsOfDiffusion<D>>());
+                   requiresOld(total::diffusivityAtStart), modifies(c::unsharedMomentum<D>),
+                   modifies(c::unsharedEnergy), all<RimsOfDiffusion<D>>());
   if (conductsToBodies()) scheduleConduction(tasks, materials);
   if (burns())
     tasks.acrossMaterials("mpmice::addBurntGas", addBurntGas<D>, materials, with(settings_),
@@ -251,8 +255,13 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
     tasks.perPatch("mpmice::limitStepOfBodies", limitStepOfBodies, with(settings_.gas.cfl),
                    requiresOld(mpm::solid::total::stableTimeStep), computes(delT));
   if (settings_.implicit) {
-    tasks.perPatch("mpmice::limitImplicitStep", limitImplicitStep<D>, with(settings_),
-                   gasIn(readsOld, {.state = 1, .mass = 2, .room = 2}), computes(delT));
+    const auto gas = gasIn(readsOld, {.state = 1, .mass = 2, .room = 2});
+    const char* name = "mpmice::limitImplicitStep";
+    if (settings_.implicit->diffusion.acts())
+      tasks.perPatch(name, limitImplicitStep<D>, with(settings_), gas, requiresOld(total::diffusivityAtStart),
+                     computes(delT));
+    else
+      tasks.perPatch(name, limitImplicitStep<D>, with(settings_), gas, with(0.0), computes(delT));
     scheduleStepsOfDiffusion(tasks, settings_.implicit->soundSpeedKnob);
     return;
   }
@@ -260,7 +269,8 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
                  settings_.gases.empty() ? computeStableTimeStep<D> : limitStepOfGases<D>, with(settings_),
                  gasIn(readsOld, {}), computes(delT));
   if (settings_.diffusion.acts() && !settings_.diffusion.varies())
-    tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_), gasIn(readsOld, {}), computes(delT));
+    tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_), gasIn(readsOld, {}),
+                   requiresOld(total::diffusivityAtStart), computes(delT));
   scheduleStepsOfDiffusion(tasks, 1);
 }
 
@@ -270,7 +280,8 @@ template <int D>
 void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (settings_.diffusion.acts() && settings_.diffusion.varies())
     tasks.perPatch("mpmice::limitDiffusion", limitVaryingDiffusion<D>, with(settings_),
-                   gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), with(soundSpeedKnob), computes(delT));
+                   gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), with(soundSpeedKnob),
+                   requiresOld(total::diffusivityAtStart), computes(delT));
 }
 
 template <int D>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "components/mpm/solid/material.hpp"
 #include "components/mpmice/bodies_at_nodes.hpp"
 #include "components/mpmice/free_space.hpp"
@@ -101,18 +103,18 @@ struct FrictionOfStep {
 
  private:
   /// The mass, per cell volume, on which the friction in a cell acts [kg/m³]. For a small cell, it includes that of the
-  /// larger neighbour with most mass.
+  /// larger neighbour with least mass, because it may be merged with any of them.
   double massAbout(const Index<D>& cell) const {
     const double own = cells.held.density[cell];
     if (!(cells.free[cell] < smallFreeVolume)) return own;
-    double most = 0;
+    double least = std::numeric_limits<double>::infinity();
     for (int a = 0; a < D; ++a)
       for (int side = 0; side < 2; ++side) {
         if (space.isAtSide(cell, a, side) || !(space.aperture(cell, a, side) > 0)) continue;
         const Index<D> next = side == 0 ? cell - Index<D>::unit(a) : cell + Index<D>::unit(a);
-        if (cells.free[next] > cells.free[cell]) most = std::max(most, cells.held.density[next]);
+        if (cells.free[next] > cells.free[cell]) least = std::min(least, cells.held.density[next]);
       }
-    return own + most;
+    return std::isfinite(least) ? own + least : own;
   }
 };
 

@@ -3,26 +3,17 @@
 import pathlib
 import re
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
+from gas_and_bodies import DISC, LIGHT, PLUG, RESTING, VISCOUS, changed
 from solids import RefusedSceneTest, SceneTest, archive_of, columns, globals_of
 from sus import run
-from uda import Folder, FolderTest
+from uda import Folder
 
-PLUG, CONTACT, BALL, DISC = (fsi.scene(name).read_text() for name in ("plug", "contact", "ball", "carried_disc"))
-LIGHT = ("<density>1000<", "<density>10<")
+CONTACT, BALL = (fsi.scene(name).read_text() for name in ("contact", "ball"))
 TOTALS = ("TotalMass", "TotalMomentum", "KineticEnergy", "GasMass", "GasMomentum", "GasEnergy", "GasKineticEnergy")
-
-
-def changed(text, *changes):
-    """Returns a scene with texts replaced; each text must occur."""
-    for before, after in changes:
-        assert before in text, before
-        text = text.replace(before, after)
-    return text
 
 
 def rigid(text):
@@ -102,14 +93,6 @@ class References(unittest.TestCase):
 
 JWL = """<EOS type="JWL"><A>300</A><B>2</B><R1>5</R1><R2>1.5</R2><om>0.4</om><rho0>1</rho0></EOS>"""
 # A disc in viscous gas that conducts heat.
-VISCOUS = changed(DISC, LIGHT, ("<dynamic_viscosity>0", "<dynamic_viscosity>0.01"),
-                  ("<thermal_conductivity>0", "<thermal_conductivity>0.03"),
-                  ("<heat>[0]", "<heat>[1]"),
-                  ("</constitutive_model>", "</constitutive_model><specific_heat>1</specific_heat>"
-                                            "<thermal_conductivity>0</thermal_conductivity>"))
-RESTING = "<velocity>[1,0.618,0]</velocity>\n        </geom_object>\n      </material>\n    </MPM>"
-
-
 class ConservationTest(SceneTest):
     """A test of the quantities that gas and bodies conserve in a closed box."""
     KEPT = (*TOTALS, "GasHeatToBodies")
@@ -230,107 +213,6 @@ class Given(SceneTest):
         found[-1] = result(folder, folder.restart("Time/max_Timesteps=41", step=20))
         for other in found[1:]:
             self.assertEqual(other, found[0])
-
-
-class Bits(FolderTest):
-    CASES = {"plug": (150, ("[1,1,1]", "[7,1,1]", "[50,1,1]")), "closed_box": (200, ("[1,1,1]", "[3,1,1]", "[50,1,1]")),
-             "cylinder": (40, ("[1,1,1]", "[5,3,1]", "[20,4,1]")), "burst": (40, ("[1,1,1]", "[3,4,1]")),
-             "moving_piston": (60, ("[1,1,1]", "[9,1,1]")), "viscous": (30, ("[1,1,1]", "[5,3,1]", "[25,4,1]")),
-             "ball": (15, ("[1,1,1]", "[3,2,2]", "[5,1,4]"))}
-    COARSE = {"cylinder": ("Grid/Level/Box/resolution=[150,30,1]", "Grid/Level/Box/upper=[1,0.2,0.006666666666666667]"),
-              "ball": ("Grid/Level/Box/resolution=[20,10,10]",), "viscous": fsi.resolution("carried_disc", 25)}
-
-    def case(self, name):
-        steps, layouts = self.CASES[name]
-        scene = fsi.scene(name)
-        if name == "viscous":
-            folder = tempfile.TemporaryDirectory()
-            self.addCleanup(folder.cleanup)
-            scene = pathlib.Path(folder.name, "viscous.ups")
-            scene.write_text(changed(VISCOUS, (RESTING, "</geom_object></material></MPM>")))
-        return scene, (f"Time/max_Timesteps={steps}", *self.COARSE.get(name, ())), layouts
-
-    def assert_same(self, name, ranks=True):
-        scene, sets, layouts = self.case(name)
-        prints = {}
-        for place, layout in enumerate(layouts):
-            done = run(scene, *sets, f"Grid/Level/Box/patches={layout}",
-                       options=("--quiet", "-nthreads", str(1 + place % 2)))
-            self.assertIsNotNone(done.report, done.err)
-            prints.setdefault(done.report["fingerprint"], []).append(layout)
-        if ranks:
-            done = run(scene, *sets, f"Grid/Level/Box/patches={layouts[-1]}", ranks=3)
-            self.assertIsNotNone(done.report, done.err)
-            prints.setdefault(done.report["fingerprint"], []).append("3 ranks")
-        in_parts = self.fingerprint_of_two_parts(scene, self.CASES[name][0], *sets)
-        prints.setdefault(in_parts, []).append("restarted")
-        self.assertEqual(len(prints), 1, f"{name}: {prints}")
-
-    def test_are_the_same_on_any_layout_on_a_line(self):
-        self.assert_same("plug")
-        self.assert_same("closed_box", ranks=False)
-        self.assert_same("moving_piston", ranks=False)
-
-    def test_are_the_same_on_any_layout_in_a_plane(self):
-        self.assert_same("cylinder")
-
-    def test_are_the_same_on_any_layout_in_viscous_gas(self):
-        self.assert_same("viscous")
-
-    def test_are_the_same_on_any_layout_where_a_body_breaks(self):
-        self.assert_same("burst", ranks=False)
-
-    def test_are_the_same_on_any_layout_in_space(self):
-        self.assert_same("ball")
-
-
-TUBE = changed(PLUG, ("[2,1,1]</upper>", "[3,1,1]</upper>"), ("[0.95,0,0]", "[2.5,0,0]"), ("[1.05,1,1]", "[2.7,1,1]"),
-               ("<density>5<", "<density>5000<"),
-               ("<box label=\"right\"><min>[1,0,0]</min><max>[2,1,1]</max></box>",
-                "<box label=\"right\"><min>[1,0,0]</min><max>[3,1,1]</max></box>"))
-STATE = "".join(f'<save label="c.{name}"/>' for name in ("density", "momentum", "totalEnergy"))
-HOT = """<geom_object><cylinder label="hot"><bottom>[0.6,0.3,-1]</bottom><top>[0.6,0.3,1]</top><radius>0.2</radius>
-</cylinder><density>1.4</density><temperature>4</temperature></geom_object></material></ICE>"""
-
-
-class FarBodies(SceneTest):
-    """A gas that a body has not yet influenced is bitwise equal to a gas alone."""
-
-    def assert_bits_of_ice(self, text, *sets):
-        text = re.sub(r'    <save label.*<save label.*?/>\n', STATE, text, flags=re.DOTALL)
-        alone = text.replace('type="mpmice"', 'type="ice"')
-        for section in (r"  <MPM>\n    <time_integrator>.*?</MPM>\n", r"    <MPM>\n      <material .*?</MPM>\n",
-                        r"    <exchange_properties>.*?</exchange_properties>\n"):
-            alone, count = re.subn(section, "", alone, flags=re.DOTALL)
-            self.assertEqual(count, 1, section)
-        with_body, without = self.columns_of(text, sets), self.columns_of(alone, sets)
-        far = [k for k, x in enumerate(without["x [m]"]) if x < 2]  # round-off of the gas at the body goes with 1 m/s
-        self.assertGreater(len(far), 20)
-        self.assertEqual(set(with_body), set(without))
-        for name in without:
-            self.assertEqual([with_body[name][k] for k in far], [without[name][k] for k in far], name)
-        densities = [without["c.density [kg/m^3]"][k] for k in far]
-        self.assertGreater(max(densities) - min(densities), .2)
-
-    def columns_of(self, text, sets):
-        scene = self.scene(text)
-        return columns(archive_of(scene, scene.parent, *sets), "c.density", "c.momentum", "c.totalEnergy")
-
-    def test_leave_the_bits_of_a_tube(self):
-        self.assert_bits_of_ice(TUBE, "Time/maxTime=0.5")
-
-    def test_leave_the_bits_of_a_plane(self):
-        plane = ("Grid/Level/Box/resolution=[90,18,1]", "Grid/Level/Box/upper=[3,0.6,0.03]", "Time/maxTime=0.3")
-        self.assert_bits_of_ice(TUBE.replace("</material>\n    </ICE>", HOT), *plane)
-
-    def test_leave_the_bits_of_viscous_gas(self):
-        text = TUBE.replace("<dynamic_viscosity>0", "<dynamic_viscosity>1e-3")
-        plane = ("Grid/Level/Box/resolution=[90,18,1]", "Grid/Level/Box/upper=[3,0.6,0.03]", "Time/max_Timesteps=6")
-        self.assert_bits_of_ice(text.replace("<thermal_conductivity>0", "<thermal_conductivity>2e-3").replace(
-            "</material>\n    </ICE>", HOT), *plane)
-
-    def test_leave_the_bits_of_constant_cells(self):
-        self.assert_bits_of_ice(TUBE.replace("SecondOrder", "FirstOrder"), "Time/maxTime=0.4")
 
 
 class RigidBodies(SceneTest):

@@ -21,6 +21,14 @@ def scene(name):
     return ROOT / f"ups/fsi/{name}.ups"
 
 
+def changed(text, *changes):
+    """Returns a scene with texts replaced; each text must occur."""
+    for before, after in changes:
+        assert before in text, before
+        text = text.replace(before, after)
+    return text
+
+
 def resolution(name, cells):
     """Returns the overrides for a number of cells along x."""
     width, height = PLANE.get(name, (1, 0))
@@ -30,6 +38,16 @@ def resolution(name, cells):
         width, height = PLANE[name]
         sets.append(f"Grid/Level/Box/upper=[{width},{height},{width / cells}]")
     return sets
+
+
+PLUG, DISC = (scene(name).read_text() for name in ("plug", "carried_disc"))
+LIGHT = ("<density>1000<", "<density>10<")
+VISCOUS = changed(DISC, LIGHT, ("<dynamic_viscosity>0", "<dynamic_viscosity>0.01"),
+                  ("<thermal_conductivity>0", "<thermal_conductivity>0.03"),
+                  ("<heat>[0]", "<heat>[1]"),
+                  ("</constitutive_model>", "</constitutive_model><specific_heat>1</specific_heat>"
+                                            "<thermal_conductivity>0</thermal_conductivity>"))
+RESTING = "<velocity>[1,0.618,0]</velocity>\n        </geom_object>\n      </material>\n    </MPM>"
 
 
 class Outcome:

@@ -49,6 +49,14 @@ def oblique(thickness, sets=()):
     return (*PLANE, *sets), f'<parallelepiped label="plate">{shape}</parallelepiped>'
 
 
+def leaving(velocity, viscosity):
+    """A block that leaves a wall, in a gas with viscosity and conduction: the gas enters the vacuum behind it."""
+    gas = "MaterialProperties/ICE/material"
+    return (*PLANE, f"{BODY}/geom_object/velocity={velocity}", f"{BODY}/geom_object/box/min=[0,0.5,0]",
+            f"{BODY}/geom_object/box/max=[0.5,1.5,1]", f"{BODY}/density=1000",
+            f"{gas}/dynamic_viscosity={viscosity}", f"{gas}/thermal_conductivity={5 * viscosity}")
+
+
 DISC = '<cylinder label="disc"><bottom>[1,1,-1]</bottom><top>[1,1,1]</top><radius>0.3</radius></cylinder>'
 
 # Name: overrides, end time in s, the largest share of the gas that may cross the plate, and a shape other than a box.
@@ -78,6 +86,8 @@ CASES = {
     "soft block, into walls": ((*PLANE, *elastic(1000), f"{BODY}/geom_object/velocity=[2,1.3,0]",
                                 f"{BODY}/geom_object/box/min=[1.1,1.1,0]", f"{BODY}/geom_object/box/max=[1.7,1.7,1]",
                                 f"{BODY}/density=33", "Grid/Level/Box/resolution=[24,24,1]"), .4, None),
+    "viscous, leaves a wall": (leaving("[0.8,0,0]", 1e-3), .4, None),
+    "viscous, leaves a wall fast": (leaving("[4,0,0]", 1e-4), .2, None),
 }
 
 
@@ -86,22 +96,25 @@ def heights(found):
     return found.get("y [m]", [0] * len(found["x [m]"]))
 
 
+def text_of(sets, shape=()):
+    """Returns the text of the scene with which the overrides work."""
+    text = scene("plug").read_text()
+    saves = "".join(f'<save label="{label}"/>' for label in (*TOTALS[2:], "p.x"))
+    text = text.replace("<save ", saves + "<save ", 1)
+    if "velocity=[" in " ".join(sets):
+        text = text.replace("</geom_object>", "<velocity>[0,0,0]</velocity></geom_object>", 1)
+    return re.sub(r'<box label="plug">.*?</box>', shape[0], text, count=1) if shape else text
+
+
 class Case:
     """A case and what its run shows."""
 
     def __init__(self, name):
         self.name = name
         sets, end, self.most_leak, *shape = CASES[name]
-        text = scene("plug").read_text()
-        saves = "".join(f'<save label="{label}"/>' for label in (*TOTALS[2:], "p.x"))
-        text = text.replace("<save ", saves + "<save ", 1)
-        if "velocity=[" in " ".join(sets):
-            text = text.replace("</geom_object>", "<velocity>[0,0,0]</velocity></geom_object>", 1)
-        if shape:
-            text = re.sub(r'<box label="plug">.*?</box>', shape[0], text, count=1)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "scene.ups")
-            path.write_text(text)
+            path.write_text(text_of(sets, shape))
             report = pathlib.Path(folder, "report.json")
             command = [SUS, path, "--quiet", "--nthreads", "1", "--output", folder, "--json", report]
             for override in (*sets, f"Time/maxTime={end}", f"DataArchiver/outputInterval={end}"):

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <limits>
 #include <numeric>
+#include <optional>
 
 #include "components/euler/boundary.hpp"
 #include "components/euler/tasks/diffusive_flux.hpp"
@@ -32,28 +34,35 @@ struct Crossing {
 /// The diffusing quantities of a cell, and its coefficients.
 template <int D>
 struct DiffusingCell {
-  State<D> w{};             ///< T (in place of the density) and v
-  Diffusion how;            ///< viscosity and conductivity without eddies
-  double density = 0;       ///< density [kg/m³]
-  double specificHeat = 0;  ///< specific heat c_v [J/(kg K)]
-  double soundSpeed = 0;    ///< speed of sound [m/s]
+  State<D> w{};                                                      ///< T (in place of the density) and v
+  Diffusion how;                                                     ///< viscosity and conductivity without eddies
+  double density = 0;                                                ///< density [kg/m³]
+  double specificHeat = 0;                                           ///< specific heat c_v [J/(kg K)]
+  double soundSpeed = 0;                                             ///< speed of sound [m/s]
+  double mostDiffusivity = std::numeric_limits<double>::infinity();  ///< its diffusivities are at most this [m²/s]
 };
 
+/// Whether a Diffuser respects the largest diffusivities of cells.
+enum class Diffusivities { asGiven, bounded };
+
 /// Computes the diffusive fluxes of blocks of cells with variable viscosity and conductivity. The coefficients at a
-/// face are the means of those of the cells on both sides. The subgrid model adds rho (C Delta)² sqrt(2 S : S) to the
+/// face are the means of those of the cells on both sides or, if diffusivities are bounded, at most those of the cell
+/// with the smaller bound. The subgrid model adds rho (C Delta)² sqrt(2 S : S) to the
 /// viscosity, where S is the symmetric part of grad v at the face, and Delta the cube root of a cell's volume. Source:
 /// J. Smagorinsky, Mon. Weather Rev. 91 (1963) 99.
 template <int D>
 class Diffuser {
  public:
   /// Allocates space for the blocks of a patch; the rules at the sides must outlive this object.
-  Diffuser(const Level& level, const Box& cells, const GhostRules<D>& rules, double eddies)
+  Diffuser(const Level& level, const Box& cells, const GhostRules<D>& rules, double eddies,
+           Diffusivities diffusivities = Diffusivities::asGiven)
       : level_(level),
         rules_(rules),
         eddies_(eddies * eddies * std::pow(level.cellVolume(), 2.0 / 3)),
         w_(largestBlock<D>(cells).grown(1, D).size()),
         coefficients_(w_),
         flux_(w_) {
+    if (diffusivities == Diffusivities::bounded) most_.emplace(w_);
     for (auto& sides : mirrors_)
       for (SideRules<D>& mirror : sides) {
         mirror.mirrored = true;
@@ -66,6 +75,7 @@ class Diffuser {
   template <class CellAt>
   void hold(const Box& block, CellAt&& cellAt) {
     for (Rows<D>* rows : {&w_, &coefficients_, &flux_}) rows->hold(block.grown(1, D));
+    if (most_) most_->hold(w_.box());
     forEach<D>(level_.clipCells(w_.box()), [&](const Index<D>& cell) {
       const DiffusingCell<D> one = cellAt(cell);
       State<D> coefficients{};
@@ -74,9 +84,11 @@ class Diffuser {
       coefficients[density] = one.density;
       store<D>(w_.at(cell), 0, one.w);
       store<D>(coefficients_.at(cell), 0, coefficients);
+      if (most_) store<D>(most_->at(cell), 0, mostOf(one));
     });
     fillBeyondGrid<D>(level_, rules_, w_);
     fillBeyondGrid<D>(level_, mirrors_, coefficients_);
+    if (most_) fillBeyondGrid<D>(level_, mirrors_, *most_);
   }
   /// Computes the fluxes along an axis through the lower faces of the cells of `faces` [Pa and W/m²].
   Rows<D>& computeFluxes(const Box& faces, int axis) {
@@ -101,7 +113,9 @@ class Diffuser {
     };
     Diffusion here{mean(viscosity), mean(conductivity)};
     if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain();
-    return here;
+    if (!most_) return here;
+    const auto least = [&](std::size_t k) { return std::min(most_->number(below, k), most_->number(face, k)); };
+    return {std::min(here.viscosity, least(viscosity)), std::min(here.conductivity, least(conductivity))};
   }
   /// The rates at which a cell is crossed: sum_d (|v_d| + k c) / h_d by the flow, and sum_d (nu_below + nu_above) /
   /// h_d² by diffusion. Here nu is the largest diffusivity at a face, and k = `soundSpeedKnob` the fraction of the
@@ -124,6 +138,15 @@ class Diffuser {
   /// Indices of a cell's coefficients.
   enum : std::size_t { viscosity, conductivity, density };
 
+  /// The largest viscosity and conductivity at the faces of a cell; infinite for a cell without gas.
+  static State<D> mostOf(const DiffusingCell<D>& cell) {
+    State<D> most;
+    most.fill(std::numeric_limits<double>::infinity());
+    if (!(cell.density > 0)) return most;
+    most[viscosity] = 0.75 * cell.density * cell.mostDiffusivity;
+    most[conductivity] = cell.specificHeat * cell.density * cell.mostDiffusivity;
+    return most;
+  }
   /// Strain rate sqrt(2 S : S) at a face [1/s].
   double strain(const Index<D>& face, int axis) const {
     const Index<D> below = face - Index<D>::unit(axis);
@@ -141,6 +164,7 @@ class Diffuser {
   GhostRules<D> mirrors_;
   double eddies_;
   Rows<D> w_, coefficients_, flux_;
+  std::optional<Rows<D>> most_;  ///< the largest coefficients at the faces of each cell, if diffusivities are bounded
 };
 
 /// Adds the diffusion during a step to the cells of a patch: addDiffusion for varying coefficients.

@@ -5,6 +5,7 @@
 #include "components/mpmice/free_space.hpp"
 #include "components/mpmice/gas_temperature.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
+#include "components/mpmice/thin_gas.hpp"
 #include "components/mpmice/wall_friction.hpp"
 
 namespace tushar::mpmice {
@@ -17,6 +18,8 @@ class DiffusionBeside {
   DiffusionBeside(const Level& level, const Settings& settings, const GasInCells<D>& cells, const euler::Rows<D>& w)
       : level_(level), cells_(cells), space_(level, settings, cells), w_(w) {}
 
+  /// The cell itself or, if it is outside the grid, the nearest cell on the grid.
+  Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(level_, cell); }
   /// The diffusive fluxes [Pa and W/m²] along an axis through the lower face of a cell. `how(strain)` returns the
   /// coefficients at the face, where `strain()` returns sqrt(2 S : S) of the gas beside the face [1/s].
   template <class How>
@@ -47,8 +50,6 @@ class DiffusionBeside {
   }
 
  private:
-  /// The cell itself or, if it is outside the grid, the nearest cell on the grid.
-  Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(level_, cell); }
   bool isBeyond(const Index<D>& cell, int axis) const {
     return !level_.isPeriodic(axis) &&
            (cell[axis] < level_.cells().lower[axis] || cell[axis] >= level_.cells().upper[axis]);
@@ -131,16 +132,18 @@ struct RimsOfDiffusion : euler::DiffusionRims<D> {
 
 /// Adds the changes due to viscosity and conduction in a step to the state before small cells are merged, given the
 /// state at the start of the step. The fluxes pass through the open fractions of faces. Friction at walls is computed
-/// together with the pressure on walls. Away from bodies, the result is bitwise equal to that of `euler`.
+/// together with the pressure on walls. Away from bodies and thin gas, the result is bitwise equal to that of `euler`.
 template <int D>
 void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
-                  CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {
+                  double diffusivityAtStart, CellView<Vec<D>> momentum, CellView<double> totalEnergy,
+                  const RimsOfDiffusion<D>& rims) {
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
   const euler::Diffusion& uniform = settings.diffusion.alone.uniform;
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, gas);
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
   const std::size_t room = euler::largestBlock<D>(patch.cells()).grown(1, D).size();
+  const BoundedDiffusion<D> diffusion(level, settings, cells, diffusivityAtStart);
   euler::Rows<D> w(room), flux(room);
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     w.hold(block.grown(1, D));
@@ -148,13 +151,20 @@ void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells
     findTemperatures<D>(gas, level, cells, near, w);
     euler::fillBeyondGrid<D>(level, rules, w);
     const DiffusionBeside<D> beside(level, settings, cells, w);
+    const std::vector<Index<D>> thin = diffusion.thinCells(level.clipCells(w.box()));
     for (int axis = 0; axis < D; ++axis) {
       Box faces = block;
       ++faces.upper[axis];
       euler::computeDiffusiveFluxes<D>(uniform, level, faces, axis, w, flux);
-      near.forEachIn(faces, [&](const Index<D>& cell) {
-        euler::store<D>(flux.at(cell), 0, beside.fluxThrough(cell, axis, [&](auto&&) { return uniform; }));
-      });
+      const auto correct = [&](const Index<D>& face) {
+        const Index<D> cell = beside.onGrid(face), below = beside.onGrid(face - Index<D>::unit(axis));
+        const auto how = [&](auto&&) { return diffusion.between(below, cell); };
+        euler::store<D>(flux.at(face), 0, beside.fluxThrough(face, axis, how));
+      };
+      near.forEachIn(faces, correct);
+      for (const Index<D>& cell : thin)
+        for (const Index<D>& face : {cell, cell + Index<D>::unit(axis)})
+          if (faces.template contains<D>(face)) correct(face);
       euler::keepDiffused<D>(rims, faces, axis, flux);
       euler::addDiffused<D>(dt / level.spacing(axis), block, axis, flux, momentum, totalEnergy);
     }
@@ -163,9 +173,12 @@ void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells
 
 /// A function that returns the diffusion properties of each cell; cells without gas are at rest.
 template <int D>
-auto diffusingGas(const Level& level, const Settings& settings, const GasInCells<D>& cells) {
-  return [&level, &settings, cells](const Index<D>& cell) {
-    return cells.isEmpty(cell) ? euler::DiffusingCell<D>{} : diffusingAt<D>(level, settings, cells, cell);
+auto diffusingGas(const Level& level, const Settings& settings, const GasInCells<D>& cells, double diffusivityAtStart) {
+  return [&level, &settings, cells, bound = DiffusivityBound(level, diffusivityAtStart)](const Index<D>& cell) {
+    if (cells.isEmpty(cell)) return euler::DiffusingCell<D>{};
+    euler::DiffusingCell<D> one = diffusingAt<D>(level, settings, cells, cell);
+    one.mostDiffusivity = bound.at(one.soundSpeed);
+    return one;
   };
 }
 
@@ -173,12 +186,14 @@ auto diffusingGas(const Level& level, const Settings& settings, const GasInCells
 /// gases. The flux through a face uses the means of the coefficients of the cells on both sides.
 template <int D>
 void addVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
-                         CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {
+                         double diffusivityAtStart, CellView<Vec<D>> momentum, CellView<double> totalEnergy,
+                         const RimsOfDiffusion<D>& rims) {
   const Level& level = patch.level();
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, settings.gas.gas);
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
-  euler::Diffuser<D> diffuser(level, patch.cells(), rules, settings.diffusion.alone.smagorinsky);
-  const auto cellAt = diffusingGas<D>(level, settings, cells);
+  euler::Diffuser<D> diffuser(level, patch.cells(), rules, settings.diffusion.alone.smagorinsky,
+                              euler::Diffusivities::bounded);
+  const auto cellAt = diffusingGas<D>(level, settings, cells, diffusivityAtStart);
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     diffuser.hold(block, cellAt);
     const DiffusionBeside<D> beside(level, settings, cells, diffuser.state());
@@ -197,11 +212,13 @@ void addVaryingDiffusion(const Patch& patch, const Settings& settings, const Gas
 }
 
 /// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / (l h_d)²) of the gas, where nu is the largest diffusivity,
-/// and l the thickness, in cells, of the layer of gas in the cell.
+/// which is bounded in thin gas, and l the thickness, in cells, of the layer of gas in the cell.
 template <int D>
-void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
+void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double diffusivityAtStart,
+                    Minimum& dt) {
   const euler::Gas& gas = settings.gas.gas;
   const Level& level = patch.level();
+  const DiffusivityBound bound(level, diffusivityAtStart);
   double widths = 0, squares = 0, greatest = 0;
   for (int d = 0; d < D; ++d) widths += level.inverseSpacing(d);
   for (int d = 0; d < D; ++d) squares += level.inverseSpacing(d) * level.inverseSpacing(d);
@@ -212,8 +229,8 @@ void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCel
     const Vec<D> momentum = cells.held.momentum[cell] * perFree;
     const double internal = cells.held.totalEnergy[cell] * perFree - 0.5 * momentum.squaredNorm() / rho;
     const double c2 = gas.soundSpeedSquared(rho, gas.last(rho, internal));
-    double rate =
-        std::sqrt(c2) * widths + 2 * settings.diffusion.alone.uniform.greatest(gas, rho) * squares / (layer * layer);
+    const double c = std::sqrt(c2), nu = std::min(settings.diffusion.alone.uniform.greatest(gas, rho), bound.at(c));
+    double rate = c * widths + 2 * nu * squares / (layer * layer);
     for (int d = 0; d < D; ++d) rate += std::abs(momentum[d]) / rho * level.inverseSpacing(d);
     greatest = rate > greatest ? rate : greatest;
   });
@@ -225,10 +242,11 @@ void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCel
 /// limitDiffusion.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
-                           double soundSpeedKnob, Minimum& dt) {
+                           double soundSpeedKnob, double diffusivityAtStart, Minimum& dt) {
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), settings.gas.gas);
-  euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky);
-  const auto cellAt = diffusingGas<D>(patch.level(), settings, cells);
+  euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky,
+                              euler::Diffusivities::bounded);
+  const auto cellAt = diffusingGas<D>(patch.level(), settings, cells, diffusivityAtStart);
   double greatest = 0;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     diffuser.hold(block, cellAt);

@@ -78,8 +78,10 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
 /// Computes dt = cfl / s as in `ice`, with s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2. The acceleration a_d follows
 /// from the pressure of the gas itself.
 template <int D>
-void limitImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
+void limitImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                       double diffusivityAtStart, Minimum& dt) {
   const Level& level = patch.level();
+  const DiffusivityBound bound(level, diffusivityAtStart);
   const ice::IceSettings& implicit = *settings.implicit;
   const euler::Gas& gas = settings.gas.gas;
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
@@ -92,14 +94,15 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
     const euler::State<D> w = cells.primitive(gas, cell);
     const double rho = w[euler::kDensity], stiff = w[p] + gas.pInfinity;
     if (!(stiff > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, stiff);
-    const double sound = implicit.soundSpeedKnob * std::sqrt(gas.soundSpeedSquared(rho, w[p]));
+    const double c = std::sqrt(gas.soundSpeedSquared(rho, w[p])), sound = implicit.soundSpeedKnob * c;
+    const double diffusivity =
+        implicit.diffusion.acts() ? std::min(implicit.diffusion.greatest(gas, rho), bound.at(c)) : 0.0;
     const double layer = std::min(1.0, layerOf(cells.free[cell]));
     double rate = 0, rates = 0;
     for (int d = 0; d < D; ++d) {
       const double perWidth = level.inverseSpacing(d);
       rate += (std::abs(w[euler::kVelocity(d)]) + sound) * perWidth;
-      if (implicit.diffusion.acts())
-        rate += 2 * implicit.diffusion.greatest(gas, rho) * (perWidth * perWidth) / (layer * layer);
+      rate += 2 * diffusivity * (perWidth * perWidth) / (layer * layer);
       double most = 0;
       for (const int side : {0, 1}) {
         if (space.isAtSide(cell, d, side) || (near(cell) && !(space.aperture(cell, d, side) > 0))) continue;
