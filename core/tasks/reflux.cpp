@@ -1,5 +1,7 @@
 #include "core/tasks/reflux.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 
 #include "core/data/rim_flux.hpp"
@@ -34,7 +36,7 @@ struct Flowing {
   const data::Label* label;
   std::vector<std::string> materials;
 
-  std::string named(const char* verb) const { return verb + (" " + std::string(label->name)); }
+  std::string named(const char* verb) const { return fmt::format("{} {}", verb, label->name); }
 };
 
 Task refluxTask(const Flowing& flowing) {
