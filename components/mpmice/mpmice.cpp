@@ -300,6 +300,14 @@ void GasAround<D>::scheduleRefine(TaskList& tasks) const {
 }
 
 template <int D>
+std::string MpmIce<D>::advice() const {
+  const std::string common = "a smaller CFD/cfl, or more particles per cell along surfaces (res)";
+  if (!gas_->areBodiesRigid()) return common;
+  return common +
+         "; bodies of rmpmice keep their velocities, also at sides of the grid: end the run before, or use mpmice";
+}
+
+template <int D>
 std::vector<std::string> MpmIce<D>::foreignLabels() const {
   std::vector<std::string> labels = solids_->foreignLabels();
   labels.insert(labels.end(), ice::uintahsLabels.begin(), ice::uintahsLabels.end());

@@ -30,6 +30,7 @@ class GasAround : public mpm::solid::Surroundings {
   std::vector<simulation::Reported> reported() const;
   void scheduleErrorEstimate(TaskList& tasks) const;
   void scheduleRefine(TaskList& tasks) const;
+  bool areBodiesRigid() const { return settings_.areRigid; }
   bool isImplicit() const { return settings_.implicit.has_value(); }
   /// Whether each cell measures the time for which a flame has been beside it.
   bool waitsForFlames() const { return hasCracks() && settings_.burning->model.ddt()->induction; }
@@ -89,7 +90,7 @@ class MpmIce : public Component {
     if (gas_->waitsForFlames()) return "useInductionTime is not available on several levels; set it to false";
     return gas_->isImplicit() ? ice::pressureOnOneLevel : solids_->whyOneLevel();
   }
-  std::string advice() const override { return "a smaller CFD/cfl, or more particles per cell along surfaces (res)"; }
+  std::string advice() const override;
   bool mayRepeatStep() const override { return true; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;

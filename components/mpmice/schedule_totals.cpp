@@ -56,7 +56,7 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks, const Materials& materia
   tasks.perPatch("mpmice::sumMomentum", sumMomentum<D>, requiresOld(c::momentum<D>), computes(total::gasMomentum),
                  computes(euler::total::momentum));
   tasks.perPatch("mpmice::sumEnergy", euler::sumEnergy<D>, requiresOld(c::totalEnergy), computes(total::gasEnergy));
-  if (settings_.areRigid || isEnergyKnown(materials)) scheduleEnergy(tasks, materials);
+  if (isEnergyKnown(materials)) scheduleEnergy(tasks, materials);
   tasks.perPatch("mpmice::sumKineticEnergy", sumKineticEnergy<D>, gas, computes(total::gasKineticEnergy),
                  computes(euler::total::kineticEnergy));
   tasks.perPatch("mpmice::findLeastContent", findLeastContent<D>, with(settings_), gas, computes(total::leastMass),

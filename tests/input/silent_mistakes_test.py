@@ -139,6 +139,24 @@ class SilentMistakes(unittest.TestCase):
                 self.assertIn("has no particles: it is outside the grid, or too small for <res>", said)
                 self.assertEqual(said.count("has no particles"), 1)
 
+    def test_bodies_of_a_material_that_overlap_get_a_note(self):
+        scene = (ROOT / "ups/solid/two_discs.ups").read_text()
+        first = 1 + scene[:scene.index("<geom_object>")].count("\n")
+        end = scene.index("</geom_object>") + len("</geom_object>")
+        for x, overlaps in ((.2, True), (.5, False)):
+            body = f"<geom_object><box><min>[{x},.2,0]</min><max>[{x + .3},.5,1]</max></box><res>[2,2,1]</res>" \
+                   "<velocity>[0,0,0]</velocity></geom_object>"
+            line = 1 + scene[:end].count("\n") + 1
+            with self.subTest(x), tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "bodies.ups")
+                path.write_text(scene[:end] + "\n" + body + scene[end:])
+                result = run(path, options=("--check",))
+                self.assertEqual(result.code, 0, result.err)
+                said = result.out + result.err
+                sentence = f"overlaps the geom_object of the same material on line {first}: particles of both"
+                self.assertEqual(said.count(sentence), int(overlaps), said)
+                self.assertEqual(f"bodies.ups:{line}:" in said, overlaps, said)
+
     def test_references_of_another_problem(self):
         riemann = "DataAnalysis/Module/"
         for scene in ("euler/sod", "mpm/sod", "mpm/sod_conserving"):

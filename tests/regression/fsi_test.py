@@ -227,6 +227,17 @@ class RigidBodies(SceneTest):
         found = columns(archive_of(scene, scene.parent, "Time/maxTime=0.2", *fsi.resolution("wedge", 40)), "p.velocity")
         self.assertEqual({speed for axis in "xy" for speed in found[f"p.velocity.{axis} [m/s]"]}, {0})
 
+    def test_have_no_strain_energy(self):
+        # The body is pushed into the side x+ from t = .475 on.
+        saved = ("TotalEnergy", "GasEnergy", "KineticEnergy", "GasKineticEnergy")
+        text = changed(also(PLUG, *saved), ('type="mpmice"', 'type="rmpmice"'),
+                       ("<res>[4,1,1]</res>", "<res>[4,1,1]</res><velocity>[2,0,0]</velocity>"),
+                       ("<is_force_transmitting_material>true</is_force_transmitting_material>", ""))
+        totals = globals_of(self.scene(text), *saved, sets=("Time/maxTime=0.48",))
+        for rows in zip(*(totals[name] for name in saved)):
+            total, gas, kinetic, kinetic_of_gas = (row[1] for row in rows)
+            self.assertAlmostEqual(total - gas - (kinetic - kinetic_of_gas), 0, delta=1e-14 * gas)
+
 
 class WrongScenes(RefusedSceneTest):
     def test_gas_needs_the_section_of_its_method(self):

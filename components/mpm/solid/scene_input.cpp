@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "components/mpm/solid/body_notes.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
 
@@ -47,46 +48,13 @@ void settleSizes(Problem& problem) {
     }
 }
 
-/// Whether any particle of a body starts on the grid. Stops at the first one.
-template <int D>
-bool hasParticles(const Level& level, const Body& body) {
-  if (body.seeds) return !body.seeds->empty();
-  const input::Box3 bounds = body.shape->bounds();
-  const Box near = level.cellsNear(bounds.min, bounds.max);
-  bool found = false;
-  for (int slab = near.lower[D - 1]; slab < near.upper[D - 1] && !found; ++slab) {
-    Box cells = near;
-    cells.lower[D - 1] = slab;
-    cells.upper[D - 1] = slab + 1;
-    forEach<D>(cells, [&](const Index<D>& cell) {
-      if (!found) forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3&) { found = true; });
-    });
-  }
-  return found;
-}
-
-/// Notes on bodies without particles: those outside the grid, or between the points at which particles would start.
-std::vector<InputProblem> notesOnEmptyBodies(const Level& level, const std::vector<Material>& materials) {
-  std::vector<InputProblem> notes;
-  for (const Material& material : materials)
-    for (const Body& body : material.bodies) {
-      const bool found = level.dimension() == 1   ? hasParticles<1>(level, body)
-                         : level.dimension() == 2 ? hasParticles<2>(level, body)
-                                                  : hasParticles<3>(level, body);
-      if (!found)
-        notes.push_back({body.where, "MaterialProperties/MPM/material/geom_object",
-                         "has no particles: it is outside the grid, or too small for <res>"});
-    }
-  return notes;
-}
-
 }  // namespace
 
 void settleParticles(const Level& level, Problem& problem) {
   for (Material& material : problem.materials) placeParticles(level, material.bodies);
   countParticles(level, problem.materials, problem.start.loads.surfaces);
   settleSizes(problem);
-  problem.notes = notesOnEmptyBodies(level, problem.materials);
+  problem.notes = notesOnBodies(level, problem);
   double widths = 0, axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     widths += level.cellWidth(axis);

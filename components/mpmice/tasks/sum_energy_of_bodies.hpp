@@ -8,17 +8,17 @@
 
 namespace tushar::mpmice {
 
-/// Whether the strain energy of a body is a function of F.
+/// Whether the body stores strain energy, as a function of F. The stress of a rigid body does no work.
 inline bool storesStrain(const mpm::solid::Material& material) {
   const auto name = material.model->name();
-  return !material.isDamageable() &&
+  return !material.isRigid && !material.isDamageable() &&
          (name == mpm::solid::CompNeoHook::name || name == mpm::solid::CompMooneyRivlin::name);
 }
 
 /// Whether the energy of bodies is known without the history of their particles: they store all strain, or none.
 inline bool isEnergyKnown(const std::vector<mpm::solid::Material>& materials) {
   for (const mpm::solid::Material& material : materials)
-    if (!storesStrain(material) && material.model->name() != mpm::solid::Rigid::name) return false;
+    if (!storesStrain(material) && !material.isRigid && material.model->name() != mpm::solid::Rigid::name) return false;
   return true;
 }
 

@@ -5,7 +5,7 @@ import re
 from tushar.program import ROOT
 
 # Calls whose arguments are a message, and returns of a sentence that a caller passes on.
-CALLS = re.compile(r"\.(?:error|note)\s*\(|\bthrow\s+[\w:]+\s*\(|fmt::print\(stderr|\bproblems?\.push_back\(|"
+CALLS = re.compile(r"\.(?:error|note)\s*\(|\bthrow\s+[\w:]+\s*\(|fmt::print\(stderr|\b(?:problems?|notes)\.push_back\(|"
                    r"\b(?:refuse|refuseDescent|complain|problem|wrong|expected|notAFormula|checked|fail|\w+Error)\s*\(")
 # What --describe prints is no message.
 SCHEMA = re.compile(r"\bSchema\b|\.(?:value|required|optional|choice|section|custom|flag)\s*(?:<[^>]*>)?\(")

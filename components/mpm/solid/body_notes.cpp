@@ -1,0 +1,72 @@
+#include "components/mpm/solid/body_notes.hpp"
+
+#include <fmt/format.h>
+
+#include "components/mpm/solid/material.hpp"
+
+namespace tushar::mpm::solid {
+
+namespace {
+
+constexpr const char* tagOfBodies = "MaterialProperties/MPM/material/geom_object";
+
+/// Whether `test(point)` holds for any particle of a body that starts in a region of the grid. Stops at the first one.
+template <int D, class Test>
+bool hasParticle(const Level& level, const Body& body, const input::Box3& region, Test&& test) {
+  const Box near = level.cellsNear(region.min, region.max);
+  bool found = false;
+  for (int slab = near.lower[D - 1]; slab < near.upper[D - 1] && !found; ++slab) {
+    Box cells = near;
+    cells.lower[D - 1] = slab;
+    cells.upper[D - 1] = slab + 1;
+    forEach<D>(cells, [&](const Index<D>& cell) {
+      if (!found)
+        forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3& at) { found = found || test(at); });
+    });
+  }
+  return found;
+}
+
+template <int D>
+bool isEmpty(const Level& level, const Body& body) {
+  if (body.seeds) return body.seeds->empty();
+  return !hasParticle<D>(level, body, body.shape->bounds(), [](const Vec3&) { return true; });
+}
+
+/// Whether a particle of a body starts inside another one; only for bodies whose particles start in parts of cells.
+template <int D>
+bool overlap(const Level& level, const Body& body, const Body& other) {
+  if (body.seeds || other.seeds) return false;
+  const input::Box3 common = body.shape->bounds().common(other.shape->bounds());
+  return ((common.max - common.min).array() >= 0).all() &&
+         hasParticle<D>(level, body, common, [&](const Vec3& at) { return other.shape->contains(at); });
+}
+
+template <int D>
+std::vector<InputProblem> notesOn(const Level& level, const Problem& problem) {
+  std::vector<InputProblem> notes;
+  for (const Material& material : problem.materials)
+    for (std::size_t k = 0; k < material.bodies.size(); ++k) {
+      const Body& body = material.bodies[k];
+      if (isEmpty<D>(level, body))
+        notes.push_back({body.where, tagOfBodies, "has no particles: it is outside the grid, or too small for <res>"});
+      for (std::size_t before = 0; before < k && problem.insertions.empty(); ++before)
+        if (const Body& other = material.bodies[before]; overlap<D>(level, body, other)) {
+          notes.push_back({body.where, tagOfBodies,
+                           fmt::format("overlaps the geom_object of the same material on line {}: particles of both "
+                                       "start in the same place, so mass is there twice",
+                                       other.where.line)});
+          break;
+        }
+    }
+  return notes;
+}
+
+}  // namespace
+
+std::vector<InputProblem> notesOnBodies(const Level& level, const Problem& problem) {
+  if (level.dimension() == 1) return notesOn<1>(level, problem);
+  return level.dimension() == 2 ? notesOn<2>(level, problem) : notesOn<3>(level, problem);
+}
+
+}  // namespace tushar::mpm::solid
