@@ -133,11 +133,22 @@ class Rows {
     for (std::size_t k = 0; k < numbers; ++k) pointers[k] = values_.data() + k * cells_ + offset;
     return pointers;
   }
+  /// The array of a component, and the place of a cell in each array.
+  const double* component(std::size_t k) const { return values_.data() + k * cells_; }
+  std::ptrdiff_t offsetOf(const Index<D>& cell) const {
+    std::ptrdiff_t offset = 0;
+    for (int d = 0; d < D; ++d) {
+      const int from = cell[d] - box_.lower[d];
+      offset += (d == 2 && planes_ > 0 ? from % planes_ : from) * stride(d);
+    }
+    return offset;
+  }
   /// One component of a cell, and all components.
   double number(const Index<D>& cell, std::size_t k) const { return values_[k * cells_ + offsetOf(cell)]; }
   State<D, K> state(const Index<D>& cell) const {
     State<D, K> state;
-    for (std::size_t k = 0; k < numbers; ++k) state[k] = number(cell, k);
+    const double* first = values_.data() + offsetOf(cell);
+    for (std::size_t k = 0; k < numbers; ++k) state[k] = first[k * cells_];
     return state;
   }
 
@@ -147,14 +158,6 @@ class Rows {
   Rows(std::size_t cells, int planes, Values values)
       : cells_(cells * std::max(planes, 1)), values_(std::move(values)), planes_(planes) {}
   static std::size_t room(std::size_t cells, int planes) { return cells * std::max(planes, 1) * numbers; }
-  std::ptrdiff_t offsetOf(const Index<D>& cell) const {
-    std::ptrdiff_t offset = 0;
-    for (int d = 0; d < D; ++d) {
-      const int from = cell[d] - box_.lower[d];
-      offset += (d == 2 && planes_ > 0 ? from % planes_ : from) * stride(d);
-    }
-    return offset;
-  }
 
   std::size_t cells_;
   Values values_;

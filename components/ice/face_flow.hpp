@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "components/euler/diffusion.hpp"
@@ -63,7 +64,13 @@ class GasBefore {
         gas_(gas),
         gravity_(level.reduce<D>(gravity)),
         is_flat_(std::move(isFlat)),
-        old_(cells) {}
+        old_(cells) {
+    for (int d = 0; d < D; ++d)
+      if (level.isPeriodic(d))
+        sides_[d] = {std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
+      else
+        sides_[d] = {0, level.cells().upper[d]};
+  }
 
   /// Loads the gas in the cells of `box`.
   void hold(const Box& box, const euler::ViewsOf<D, K, const double>& before) {
@@ -99,20 +106,28 @@ class GasBefore {
   /// Whether a cell is on the grid, or is the periodic image of such a cell.
   bool isOnGrid(const Index<D>& cell) const {
     for (int d = 0; d < D; ++d)
-      if (!level_.isPeriodic(d) && (cell[d] < 0 || cell[d] >= level_.cells().upper[d])) return false;
+      if (cell[d] < sides_[d][0] || cell[d] >= sides_[d][1]) return false;
     return true;
   }
+  /// Whether a face lies on a side of the grid.
+  bool isOnSide(const Index<D>& face, int axis) const {
+    return face[axis] == sides_[axis][0] || face[axis] == sides_[axis][1];
+  }
   bool isFlat(const Index<D>& cell) const { return is_flat_ && is_flat_(cell); }
-  /// The limited difference of one component of the state across a cell.
-  double slope(const Index<D>& cell, int axis, std::size_t number) const {
-    if (isFlat(cell)) return 0;
-    const Index<D> step = Index<D>::unit(axis);
-    const double middle = old_.number(cell, number);
-    return VanLeer::slope(middle - old_.number(cell - step, number), old_.number(cell + step, number) - middle);
+  /// The limited differences of the state across a cell along an axis.
+  euler::State<D, K> slopes(const Index<D>& cell, int axis) const {
+    euler::State<D, K> slopes{};
+    if (isFlat(cell)) return slopes;
+    const std::ptrdiff_t step = old_.stride(axis);
+    const double* middle = old_.component(0) + old_.offsetOf(cell);
+    for (std::size_t k = 0; k < slopes.size(); ++k, middle += old_.room())
+      slopes[k] = VanLeer::slope(middle[0] - middle[-step], middle[step] - middle[0]);
+    return slopes;
   }
 
   /// The normal velocity at a face [m/s], if it does not depend on the pressure.
   std::optional<double> givenVelocity(const Index<D>& face, int axis) const {
+    if (!isOnSide(face, axis)) return {};
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     if (rule && rule->mirrored) return 0.0;
     if (rule && rule->factor[euler::kVelocity(axis)] == 0) return rule->value[euler::kVelocity(axis)];
@@ -120,6 +135,7 @@ class GasBefore {
   }
   /// Whether a face lies on a side at which no pressure is given.
   bool isFree(const Index<D>& face, int axis) const {
+    if (!isOnSide(face, axis)) return false;
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule && rule->factor[euler::kPressure<D>] != 0;
   }
@@ -145,7 +161,8 @@ class GasBefore {
     return rule ? rule->relaxes : euler::Relaxation();
   }
   static double mean(const euler::Rows<D, K>& of, const Index<D>& face, int axis, std::size_t number) {
-    return 0.5 * (of.number(face - Index<D>::unit(axis), number) + of.number(face, number));
+    const double* above = of.component(number) + of.offsetOf(face);
+    return 0.5 * (above[-of.stride(axis)] + above[0]);
   }
 
  private:
@@ -160,8 +177,8 @@ class GasBefore {
   }
   /// The rule at a face on a side of the grid, that is, for the cell beyond it; none at other faces.
   std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& face, int axis) const {
-    const bool isUpper = face[axis] == level_.cells().upper[axis];
-    if (level_.isPeriodic(axis) || (face[axis] != 0 && !isUpper)) return {};
+    if (!isOnSide(face, axis)) return {};
+    const bool isUpper = face[axis] == sides_[axis][1];
     return euler::ruleAt<D>(level_, rules_, axis, isUpper ? 1 : 0, isUpper ? face : face - Index<D>::unit(axis));
   }
 
@@ -170,6 +187,7 @@ class GasBefore {
   const LawsOf<K>& gas_;
   Vec<D> gravity_;
   IsFlat<D> is_flat_;
+  std::array<std::array<int, 2>, D> sides_;  ///< the first and the last face along each axis; out of reach if periodic
   euler::Rows<D, K> old_;
 };
 
@@ -214,20 +232,19 @@ class FaceFlow : public GasBefore<D, K> {
 
   /// u_f [m/s] for unchanged pressures.
   double unchanged(const Index<D>& face, int axis) const {
-    if (const auto given = this->givenVelocity(face, axis)) return *given;
-    if (this->isFree(face, axis)) {
-      const OpenSide side = openSide(face, axis);
-      return side.normal *
-             (side.speed + side.lightness * (side.carried + side.push * side.relaxed) / (side.push + side.lightness));
+    if (this->isOnSide(face, axis)) {
+      if (const auto given = this->givenVelocity(face, axis)) return *given;
+      if (this->isFree(face, axis)) return throughOpenSide(openSide(face, axis));
     }
-    const std::size_t p = euler::kPressure<D>;
-    const double rise = this->old().number(face, p) - this->old().number(face - Index<D>::unit(axis), p);
+    const double* above = this->old().component(euler::kPressure<D>) + this->old().offsetOf(face);
+    const double rise = above[0] - above[-this->old().stride(axis)];
     return this->mean(ahead_, face, axis, euler::kVelocity(axis)) + dt_ * this->gravity()[axis] -
            this->mobility(face, axis, dt_) * rise;
   }
   /// The decrease of u_f per increase of the pressure in the cell above the face [m/(s Pa)]. It equals the increase of
   /// u_f per increase of the pressure in the cell below. The pressure beyond a side does not change.
   double loss(const Index<D>& face, int axis) const {
+    if (!this->isOnSide(face, axis)) return dt_ * this->level().inverseSpacing(axis) / this->density(face, axis);
     if (!this->isOpen(face, axis)) return this->mobility(face, axis, dt_);
     const OpenSide side = openSide(face, axis);
     return side.lightness * side.push / (side.push + side.lightness);
@@ -266,15 +283,21 @@ class FaceFlow : public GasBefore<D, K> {
             .push = 2 * dt_ / (rho * h),
             .relaxed = relaxes.acts() ? relaxes.loss(pressure, normal * speed, sound, sound * dt_ / h) : 0};
   }
+  /// u_f [m/s] through an open side, for unchanged pressures.
+  static double throughOpenSide(const OpenSide& side) {
+    return side.normal *
+           (side.speed + side.lightness * (side.carried + side.push * side.relaxed) / (side.push + side.lightness));
+  }
   /// Changes the velocities of cells to v - dt (v . grad) v.
   void carryVelocities(const Box& cells) {
     forEach<D>(cells, [&](const Index<D>& cell) {
       const euler::State<D, K> w = this->old().state(cell);
       const auto ahead = ahead_.at(cell);
-      for (int k = 0; k < D; ++k)
-        for (int d = 0; d < D; ++d)
-          *ahead[euler::kVelocity(k)] -= dt_ * this->level().inverseSpacing(d) * w[euler::kVelocity(d)] *
-                                         this->slope(cell, d, euler::kVelocity(k));
+      for (int d = 0; d < D; ++d) {
+        const euler::State<D, K> slopes = this->slopes(cell, d);
+        const double ratio = dt_ * this->level().inverseSpacing(d) * w[euler::kVelocity(d)];
+        for (int k = 0; k < D; ++k) *ahead[euler::kVelocity(k)] -= ratio * slopes[euler::kVelocity(k)];
+      }
     });
   }
 

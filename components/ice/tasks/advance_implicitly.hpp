@@ -132,7 +132,10 @@ class ImplicitStep {
   euler::State<D, K> atFace(const Index<D>& cell, int axis, int side) const {
     euler::State<D, K> w = middle_.state(cell);
     const bool isSloped = flow_.hasSlopes() && flow_.isOnGrid(cell);
-    for (std::size_t k = 0; isSloped && k < w.size(); ++k) w[k] += 0.5 * side * flow_.slope(cell, axis, k);
+    if (isSloped) {
+      const euler::State<D, K> slopes = flow_.slopes(cell, axis);
+      for (std::size_t k = 0; k < w.size(); ++k) w[k] += 0.5 * side * slopes[k];
+    }
     const bool fine = closeState<D, K>(w) && w[euler::kDensity] > 0 &&
                       euler::lawIn<D>(flow_.gas(), w).heat(w[euler::kDensity], w[euler::kPressure<D>]) > 0;
     if (fine || !isSloped) return w;
@@ -147,7 +150,8 @@ class ImplicitStep {
     const auto middle = middle_.at(cell);
     for (int d = 0; d < D; ++d) {
       const double ratio = 0.5 * dt_ * level_.inverseSpacing(d);
-      for (std::size_t k = 0; k < w.size(); ++k) *middle[k] -= ratio * w[euler::kVelocity(d)] * flow_.slope(cell, d, k);
+      const euler::State<D, K> slopes = flow_.slopes(cell, d);
+      for (std::size_t k = 0; k < w.size(); ++k) *middle[k] -= ratio * w[euler::kVelocity(d)] * slopes[k];
       const double push = 0.5 * (pressureBeyond(cell, d, 1) - pressureBeyond(cell, d, 0));
       *middle[euler::kVelocity(d)] += 0.5 * dt_ * flow_.gravity()[d] - ratio * push / w[euler::kDensity];
     }

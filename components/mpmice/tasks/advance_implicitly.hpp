@@ -88,10 +88,16 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
   const FreeSpace<D> space(level, settings, cells);
   const Vec<D> gravity = level.reduce<D>(settings.gravity);
   const std::size_t p = euler::kPressure<D>;
+  const Box around = level.clipCells(patch.cells().grown(1, D));
+  euler::Rows<D> gasAlone(around.size());
+  gasAlone.hold(around);
+  forEach<D>(around, [&](const Index<D>& cell) {
+    if (!cells.isEmpty(cell)) euler::store<D>(gasAlone.at(cell), 0, cells.primitive(gas, cell));
+  });
   double greatest = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (cells.isEmpty(cell)) return;
-    const euler::State<D> w = cells.primitive(gas, cell);
+    const euler::State<D> w = gasAlone.state(cell);
     const double rho = w[euler::kDensity], stiff = w[p] + gas.pInfinity;
     if (!(stiff > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, stiff);
     const double c = std::sqrt(gas.soundSpeedSquared(rho, w[p])), sound = implicit.soundSpeedKnob * c;
@@ -107,9 +113,9 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
       for (const int side : {0, 1}) {
         if (space.isAtSide(cell, d, side) || (near(cell) && !(space.aperture(cell, d, side) > 0))) continue;
         const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
-        const euler::State<D> other = cells.primitive(gas, next);
-        const double rise = (side == 0 ? w[p] - other[p] : other[p] - w[p]) * perWidth;
-        most = std::max(most, std::abs(gravity[d] - 2 * rise / (rho + other[euler::kDensity])));
+        const double other = gasAlone.number(next, p);
+        const double rise = (side == 0 ? w[p] - other : other - w[p]) * perWidth;
+        most = std::max(most, std::abs(gravity[d] - 2 * rise / (rho + gasAlone.number(next, euler::kDensity))));
       }
       rates += perWidth * most;
     }

@@ -205,7 +205,9 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas.gas);
   std::vector<ice::FaceFlow<D>> flows;
   std::vector<FreeSpace<D>> spaces;
+  std::vector<NearBodies<D>> near;
   for (std::size_t p = 0; p < patches.size(); ++p) {
+    near.emplace_back(patches[p]->cells(), nearLayers, cells[p].free, cells[p].held.density);
     flows
         .emplace_back(level, settings.gas, *settings.implicit, rules, patches[p]->cells(), dt,
                       flatAtBodies<D>(*patches[p], cells[p]))
@@ -220,6 +222,7 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
         return spaces[p].isEmpty(cell) || wasEmpty;
       },
       [&](std::size_t p, const Index<D>& cell) {
+        if (!near[p](cell)) return ice::pressureEquation<D>(level, flows[p], cell, dt);
         return pressureEquationBeside<D>(flows[p], spaces[p], walls[p], cells[p].free[cell], cell, dt);
       },
       [&](std::size_t p, const Index<D>& cell) {
