@@ -159,7 +159,9 @@ void takeValue(const ConditionSection& given, const Element& tag, bool mayVary, 
   const Location& where = tag.child("value")->where();
   std::string problem;
   std::optional<input::VectorExpression> formula;
-  if (condition.variable.isVector) {
+  if (condition.variable.isVector && input::parse<double>(*given.value).value == 0.0) {
+    diagnostics.note(where, tag.path(), "the value 0 is taken as the vector [0,0,0]");
+  } else if (condition.variable.isVector) {
     problem = readValue(*given.value, mayVary, condition.value, formula);
   } else {
     std::optional<input::Expression> one;

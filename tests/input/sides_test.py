@@ -97,6 +97,15 @@ class Sides(SceneTest):
         self.assert_refused(text, "conditions on a part of a side (circle) are not available; use side=\"x-\" to "
                                   "apply them to the whole side")
 
+    def test_a_vector_may_be_the_number_0(self):
+        texts = [JET.replace("<value>[1,0,0]<", f"<value>{value}<") for value in ("[0,0,0]", " 0.0 ", "1")]
+        vector, number, one = (run(self.scene(text), options=("--check",)) for text in texts)
+        self.assertEqual((vector.code, number.code), (0, 0), number.err)
+        sentence = "the value 0 is taken as the vector [0,0,0]"
+        self.assertEqual([(done.out + done.err).count(sentence) for done in (vector, number)], [0, 1])
+        self.assertEqual(one.code, 3)
+        self.assertIn("value: found '1', expected three formulas", one.err)
+
     def test_values_that_are_neither_numbers_nor_formulas(self):
         self.assert_refused(JET.replace("<value>3<", "<value>3+<"), "BCType: value: found '3+', expected a number")
         self.assert_refused(JET.replace("<value>[1,0,0]<", "<value>[1,t<"), "BCType: value: found '[1,t'")
