@@ -3,7 +3,6 @@
 import pathlib
 import re
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
@@ -15,7 +14,7 @@ from sus import run
 from uda import FolderTest
 
 
-class Bits(FolderTest):
+class Bits(SceneTest, FolderTest):
     CASES = {"plug": (150, ("[1,1,1]", "[7,1,1]", "[50,1,1]")), "closed_box": (200, ("[1,1,1]", "[3,1,1]", "[50,1,1]")),
              "cylinder": (40, ("[1,1,1]", "[5,3,1]", "[20,4,1]")), "burst": (40, ("[1,1,1]", "[3,4,1]")),
              "moving_piston": (60, ("[1,1,1]", "[9,1,1]")), "viscous": (30, ("[1,1,1]", "[5,3,1]", "[25,4,1]")),
@@ -26,19 +25,12 @@ class Bits(FolderTest):
               "viscous, leaves a wall": (*wall_gallery.CASES["viscous, leaves a wall"][0],
                                          "Grid/Level/Box/resolution=[32,32,1]")}
 
-    def scene_of(self, text):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        scene = pathlib.Path(folder.name, "scene.ups")
-        scene.write_text(text)
-        return scene
-
     def case(self, name):
         steps, layouts = self.CASES[name]
         if name == "viscous":
-            scene = self.scene_of(changed(VISCOUS, (RESTING, "</geom_object></material></MPM>")))
+            scene = self.scene(changed(VISCOUS, (RESTING, "</geom_object></material></MPM>")))
         elif name in wall_gallery.CASES:
-            scene = self.scene_of(wall_gallery.text_of(self.COARSE[name]))
+            scene = self.scene(wall_gallery.text_of(self.COARSE[name]))
         else:
             scene = fsi.scene(name)
         return scene, (f"Time/max_Timesteps={steps}", *self.COARSE.get(name, ())), layouts
