@@ -63,15 +63,20 @@ struct CompNeoHook {
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     return kirchhoffStress(d.deformationGradient) / d.deformationGradient.determinant();
   }
-  /// Computes the tangent d tau = K J² tr h I + G dev(h b + b hᵀ - 2/3 tr h b) with b = J^(-2/3) F Fᵀ.
+  /// Computes the tangent d tau = K J² tr h I + G dev(h b + b hᵀ - 2/3 tr h b) with b = J^(-2/3) F Fᵀ, where h = e_k
+  /// e_l.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3&, const State&) const {
     const Matrix3& f = d.deformationGradient;
     const double j = f.determinant();
     const Matrix3 b = f * f.transpose() / std::cbrt(j * j);
-    return solid::nominalTangent(f, kirchhoffStress(f), [&](const Matrix3& h) {
-      const Matrix3 hb = h * b;
-      Matrix3 change = shearModulus * deviator(hb + hb.transpose() - 2.0 / 3.0 * h.trace() * b);
-      change.diagonal().array() += bulkModulus * j * j * h.trace();
+    return solid::nominalTangent(f, kirchhoffStress(f), [&](int k, int l) {
+      const double trace = k == l ? 1 : 0;
+      Matrix3 change = -2.0 / 3.0 * trace * b;
+      for (int i = 0; i < 3; ++i) change(k, i) += b(l, i);
+      for (int i = 0; i < 3; ++i) change(i, k) += b(l, i);
+      const double mean = (change(0, 0) + change(1, 1) + change(2, 2)) / 3;
+      change *= shearModulus;
+      change.diagonal().array() += bulkModulus * j * j * trace - shearModulus * mean;
       return change;
     });
   }
