@@ -67,6 +67,12 @@ struct RangesOfCells {
     std::memcpy(&pairs, ranges, sizeof(pairs));
     take(pairs, std::make_integer_sequence<int, Lanes::count>());
   }
+  /// The largest number of particles in a cell.
+  int most() const {
+    int most = 0;
+    while (any(__builtin_convertvector(last - first > most, Lanes::Mask))) ++most;
+    return most;
+  }
 
  private:
   using Pairs [[gnu::vector_size(2 * sizeof(LaneIntegers))]] = int;

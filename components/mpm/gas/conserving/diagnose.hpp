@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/gas/conserving/batch.hpp"
-#include "components/mpm/gas/conserving/grid_sums.hpp"
+#include "components/mpm/gas/conserving/box_sums.hpp"
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/tasks/measure_error.hpp"
@@ -73,28 +73,38 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
                          ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                          ParticleView<const Modes<D>> modes, CellView<const double> cellMass,
                          CellView<Vec<D>> cellVelocity) {
-  const Level& level = patch.level();
-  GridSums<D, D, 0> momentum(x.cells());
-  forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
+  const CellsOf<D> grid(patch.level());
+  const RowsAround<D> around(patch, x.cells(), 0);
+  BoxSums<D, D, 0> momentum(around.rows, around.blocks);
+  const auto visit = [&](const Batch<D>& batch) {
     const LanesVec<D> centre = load(x, batch), v = load(velocity, batch);
     const LanesModes<D> u = load(modes, batch);
-    const Footprint<D> footprint(level, batch, centre, load(edges, batch));
+    const Footprint<D> footprint(grid, batch, centre, load(edges, batch));
     const Lanes m = batch.only(load(mass, batch));
-    typename GridSums<D, D, 0>::Brought brought;
-    footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
-      LanesVec<D> there = v;
-      for (std::size_t d = 0; d < D; ++d) {
-        const int axis = static_cast<int>(d);
-        there += (footprint.along[d].middle(k[axis]) - centre[axis]) * u.col(gradientColumn(axis));
+    const std::size_t first = momentum.firstOf(footprint);
+    footprint.forEachRowOfCells([&](Index<D> k, const Lanes& part) {
+      std::array<typename BoxSums<D, D, 0>::Terms, D> terms{};
+      for (std::size_t c = 0; k[0] < footprint.along[0].cells; ++k[0], ++c) {
+        LanesVec<D> there = v;
+        for (std::size_t d = 0; d < D; ++d) {
+          const int axis = static_cast<int>(d);
+          there += (footprint.along[d].middle(k[axis]) - centre[axis]) * u.col(gradientColumn(axis));
+        }
+        const Lanes share = part * footprint.along[0].part[c] * m;
+        for (std::size_t d = 0; d < D; ++d) terms[d][first + c] = share * there[static_cast<int>(d)];
       }
-      for (std::size_t d = 0; d < D; ++d) brought[d][Footprint<D>::number(k)] = part * m * there[static_cast<int>(d)];
+      momentum.add(footprint, k, [&](std::size_t d) { return terms[d]; });
     });
-    momentum.add(footprint, brought);
-  });
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double m = cellMass[cell], inverse = m > 0 ? 1 / m : 0;
-    for (std::size_t d = 0; d < D; ++d) cellVelocity[cell][static_cast<int>(d)] = inverse * momentum.at(d, cell);
-  });
+  };
+  const auto finish = [&](const Index<D>& row) {
+    forEachPartOfRow<D>(patch.cells(), row, [&](const RowPart<D>& part) {
+      const Lanes m = load(cellMass, part), inverse = select(m > 0, 1 / m, 0);
+      LanesVec<D> mean;
+      for (std::size_t d = 0; d < D; ++d) mean[static_cast<int>(d)] = inverse * momentum.readRow(d, part.first);
+      store(mean, cellVelocity, part);
+    });
+  };
+  sumOverBoxes<D>(around, x, visit, finish, momentum);
 }
 
 /// Computes the density M_c / V_c [kg/m³].

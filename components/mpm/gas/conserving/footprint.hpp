@@ -101,7 +101,7 @@ struct Footprint {
     constexpr std::size_t half = std::size_t{1} << Axis;
     Field<Axis - 1> result;
     for (std::size_t a = 0; a < half; ++a)
-      for (int d = 0; d < D; ++d) result[a][d] = field[a][d] + arm * field[a + half][d];
+      for (int d = 0; d < D; ++d) result[a][d] = multiplyAdd(arm, field[a + half][d], field[a][d]);
     return result;
   }
 

@@ -43,12 +43,21 @@ struct ParticleUpdate {
   }
 };
 
-/// Grid fields from which particles are updated: at nodes, the components of v and v + dt a; without apic also of v +
-/// faceTime dt a, and 1 - beta and beta (2 - beta) / 2; in cells, f.
+/// The sum of the squares of the components of vectors.
+template <int D>
+[[gnu::always_inline]] inline Lanes squareOf(const LanesVec<D>& v) {
+  Lanes sum = v[0] * v[0];
+  for (int d = 1; d < D; ++d) sum = multiplyAdd(v[d], v[d], sum);
+  return sum;
+}
+
+/// Grid fields from which particles are updated: at nodes, v; y = v + dt a (apic) or dt a; |y|² or |dt a|²; without
+/// apic also v + faceTime dt a, beta, and beta (2 - beta) / 2; in cells, f.
 template <int D, bool apic>
-struct Motion : GridFields<D, apic ? 2 * D + 1 : 3 * D + 3> {
-  static constexpr std::size_t accelerated = D, work = 2 * D, moving = 2 * D + 1, kept = 3 * D + 1, slip = 3 * D + 2;
-  using Fields = GridFields<D, apic ? 2 * D + 1 : 3 * D + 3>;
+struct Motion : GridFields<D, apic ? 2 * D + 2 : 3 * D + 4> {
+  static constexpr std::size_t later = D, square = 2 * D, work = square + 1, moving = work + 1, beta = moving + D,
+                               slip = beta + 1;
+  using Fields = GridFields<D, apic ? 2 * D + 2 : 3 * D + 4>;
 
   bool relaxes = apic;  ///< whether any beta is not 0
 
@@ -57,14 +66,16 @@ struct Motion : GridFields<D, apic ? 2 * D + 1 : 3 * D + 3> {
     Lanes greatestBeta = 0;
     forEachRowPart<D>(update.nodeVelocity.box(), [&](const RowPart<D>& nodes) {
       const LanesVec<D> v = load(update.nodeVelocity, nodes), dv = dt * load(update.acceleration, nodes);
+      const LanesVec<D> y = apic ? LanesVec<D>(v + dv) : dv;
       put(0, nodes, v);
-      put(accelerated, nodes, v + dv);
+      put(later, nodes, y);
+      this->writeRow(square, nodes, squareOf<D>(y));
       if constexpr (!apic) {
-        const Lanes beta = load(update.relaxation, nodes);
-        greatestBeta = max(greatestBeta, beta);
+        const Lanes b = load(update.relaxation, nodes);
+        greatestBeta = max(greatestBeta, b);
         put(moving, nodes, v + faceTime * dv);
-        this->writeRow(kept, nodes, 1 - beta);
-        this->writeRow(slip, nodes, 0.5 * beta * (2 - beta));
+        this->writeRow(beta, nodes, b);
+        this->writeRow(slip, nodes, 0.5 * b * (2 - b));
       }
     });
     if (!apic) relaxes = any(greatestBeta > 0);

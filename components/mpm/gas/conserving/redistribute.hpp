@@ -1,7 +1,7 @@
 #pragma once
 
+#include "components/mpm/gas/conserving/box_sums.hpp"
 #include "components/mpm/gas/conserving/boxes.hpp"
-#include "components/mpm/gas/conserving/grid_sums.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
 
@@ -87,21 +87,30 @@ void gatherInCells(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
   cellMass.fill(0);
   cellEnergy.fill(0);
   if (count != 0) return;
-  GridSums<D, 2, 0> sums(x.cells());
-  forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
-    const Footprint<D> footprint(patch.level(), batch, load(x, batch), load(edges, batch));
+  const CellsOf<D> grid(patch.level());
+  const RowsAround<D> around(patch, x.cells(), 0);
+  BoxSums<D, 2, 0> sums(around.rows, around.blocks);
+  const auto visit = [&](const Batch<D>& batch) {
+    const Footprint<D> footprint(grid, batch, load(x, batch), load(edges, batch));
     const Lanes m = batch.only(load(mass, batch)), energy = m * load(internalEnergy, batch);
-    typename GridSums<D, 2, 0>::Brought parts;
-    footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
-      parts[0][Footprint<D>::number(k)] = part * m;
-      parts[1][Footprint<D>::number(k)] = part * energy;
+    const std::size_t first = sums.firstOf(footprint), cells = static_cast<std::size_t>(footprint.along[0].cells);
+    footprint.forEachRowOfCells([&](const Index<D>& k, const Lanes& part) {
+      std::array<typename BoxSums<D, 2, 0>::Terms, 2> terms{};
+      for (std::size_t c = 0; c < cells; ++c) {
+        const Lanes share = part * footprint.along[0].part[c];
+        terms[0][first + c] = share * m;
+        terms[1][first + c] = share * energy;
+      }
+      sums.add(footprint, k, [&](std::size_t n) { return terms[n]; });
     });
-    sums.add(footprint, parts);
-  });
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    cellMass[cell] = sums.at(0, cell);
-    cellEnergy[cell] = sums.at(1, cell);
-  });
+  };
+  const auto finish = [&](const Index<D>& row) {
+    forEachPartOfRow<D>(patch.cells(), row, [&](const RowPart<D>& part) {
+      store(sums.readRow(0, part.first), cellMass, part);
+      store(sums.readRow(1, part.first), cellEnergy, part);
+    });
+  };
+  sumOverBoxes<D>(around, x, visit, finish, sums);
 }
 
 }  // namespace tushar::mpm::gas::conserving

@@ -1,3 +1,4 @@
+#include "components/mpm/gas/conserving/box_sums.hpp"
 #include "components/mpm/gas/conserving/redistribute.hpp"
 #include "components/mpm/particles/ids.hpp"
 
@@ -18,7 +19,7 @@ struct CellSums {
   static constexpr std::size_t modes = moment + D * D;  ///< index of the first sum of m u_a: D for each mixed mode
   static constexpr std::size_t count = modes + D * ((1 << D) - 1 - D);
 
-  using Fields = GridSums<D, count, 0>;
+  using Fields = BoxSums<D, count, 0>;
 };
 
 /// Whether a mode depends on several axes.
@@ -92,19 +93,18 @@ class Parts {
   std::array<Part<D>, Footprint<D>::places> parts_;
 };
 
-/// Sets the terms that a part adds to the sums of its cell.
-template <int D>
-void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, const Part<D>& part,
-           const LanesVec<D>& dx, const LanesVec<D>& u, const LanesTensor<D>& gradient, const LanesModes<D>& modes,
-           const Lanes& surplus) {
+/// Adds a part to the sums of its cell; `add(field, term)` adds to one of them.
+template <int D, class Add>
+void bring(const Part<D>& part, const LanesVec<D>& dx, const LanesVec<D>& u, const LanesTensor<D>& gradient,
+           const LanesModes<D>& modes, const Lanes& surplus, Add&& add) {
   using Sums = CellSums<D>;
   const auto put = [&](std::size_t field, const LanesVec<D>& values) {
-    for (std::size_t d = 0; d < D; ++d) brought[field + d][place] = part.mass * values[static_cast<int>(d)];
+    for (std::size_t d = 0; d < D; ++d) add(field + d, part.mass * values[static_cast<int>(d)]);
   };
   const LanesVec<D> spread = part.edges.cwiseAbs2() / 12;
-  brought[Sums::mass][place] = part.mass;
-  brought[Sums::internal][place] = part.internal;
-  brought[Sums::kinetic][place] = part.mass * (0.5 * u.squaredNorm() + surplus);
+  add(Sums::mass, part.mass);
+  add(Sums::internal, part.internal);
+  add(Sums::kinetic, part.mass * (0.5 * u.squaredNorm() + surplus));
   put(Sums::momentum, u);
   put(Sums::offset, dx);
   put(Sums::square, dx.cwiseAbs2() + spread);
@@ -120,13 +120,13 @@ void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, co
 
 /// Cuts a batch of particles at the faces of cells, and adds the parts to the sums.
 template <int D>
-void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, const Contents<D>& contents,
-         typename CellSums<D>::Fields& sums) {
+void cut(const Level& level, const CellsOf<D>& grid, const Batch<D>& batch, const OldBoxes<D>& boxes,
+         const Contents<D>& contents, typename CellSums<D>::Fields& sums) {
   const LanesVec<D> centre = load(boxes.x, batch), edges = load(boxes.edges, batch), v = load(boxes.velocity, batch);
   const LanesModes<D> modes = load(boxes.modes, batch);
   const Lanes m = batch.only(load(boxes.mass, batch)), e = load(boxes.internalEnergy, batch),
               affine = load(boxes.affineEnergy, batch);
-  const Footprint<D> footprint(level, batch, centre, edges);
+  const Footprint<D> footprint(grid, batch, centre, edges);
   Parts<D> parts(footprint, centre, relativeSlopes<D>(level, contents, 0, batch, edges),
                  relativeSlopes<D>(level, contents, 1, batch, edges));
   LanesVec<D> centroid;
@@ -140,20 +140,21 @@ void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, co
   const Lanes most = affine + 0.5 * e;
   gradient *= select(kinetic > most, sqrt(most / kinetic), 1);
   const Lanes surplus = affine - min(kinetic, most), warm = m * e * (1 + min(surplus, 0) / e);
-  typename CellSums<D>::Fields::Brought brought;
-  footprint.forEachPart([&](const Index<D>& k, const Lanes&) {
-    Part<D>& part = parts.at(k);
-    LanesVec<D> middle;
-    for (int d = 0; d < D; ++d) {
-      const Lanes cell = widen(footprint.along[d].first + k[d]);
-      middle[d] = middleOf(level, d) + level.spacing(d) * fromMiddle(level, d, cell);
+  const std::size_t first = sums.firstOf(footprint);
+  footprint.forEachRowOfCells([&](Index<D> k, const Lanes&) {
+    std::array<typename CellSums<D>::Fields::Terms, CellSums<D>::count> terms{};
+    for (std::size_t c = first; k[0] < footprint.along[0].cells; ++k[0], ++c) {
+      Part<D>& part = parts.at(k);
+      LanesVec<D> middle;
+      for (int d = 0; d < D; ++d) middle[d] = grid.along[d].centre(widen(footprint.along[d].first + k[d]));
+      const LanesVec<D> u = v + gradient * (part.x - centroid);
+      part.mass *= m;
+      part.internal *= warm;
+      bring<D>(part, part.x - middle, u, gradient, modes, max(surplus, 0),
+               [&](std::size_t field, const Lanes& term) { terms[field][c] = term; });
     }
-    const LanesVec<D> u = v + gradient * (part.x - centroid);
-    part.mass *= m;
-    part.internal *= warm;
-    bring<D>(brought, Footprint<D>::number(k), part, part.x - middle, u, gradient, modes, max(surplus, 0));
+    sums.add(footprint, k, [&](std::size_t n) { return terms[n]; });
   });
-  sums.add(footprint, brought);
 }
 
 /// The contents of consecutive cells of a row, one per lane.
@@ -252,14 +253,20 @@ void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> ma
   Contents<D> contents(old.x.cells());
   contents.copy(0, mass);
   contents.copy(1, energy);
-  typename CellSums<D>::Fields sums(old.x.cells());
-  forEachBatch<D>(old.x.cells(), old.x, [&](const Batch<D>& batch) { cut<D>(level, batch, old, contents, sums); });
-  forEach<D>(patch.cells(), [&](Index<D> cell) {
-    if ((cell[0] - patch.cells().lower[0]) % Lanes::count != 0) return;
-    const Contained<D> contained(sums, cell);
-    for (int lane = 0; lane < Lanes::count && cell[0] < patch.cells().upper[0]; ++lane, ++cell[0])
-      if (contained.mass[lane] > 0) fresh.add(maker, cell, boxOf<D>(level, mass, cell, contained, lane));
-  });
+  const CellsOf<D> grid(level);
+  const RowsAround<D> around(patch, old.x.cells(), 0);
+  typename CellSums<D>::Fields sums(around.rows, around.blocks);
+  const auto visit = [&](const Batch<D>& batch) { cut<D>(level, grid, batch, old, contents, sums); };
+  const auto finish = [&](const Index<D>& row) {
+    forEachPartOfRow<D>(patch.cells(), row, [&](const RowPart<D>& part) {
+      const Contained<D> contained(sums, part.first);
+      for (int lane = 0; lane < part.count; ++lane) {
+        const Index<D> cell = part.at(lane);
+        if (contained.mass[lane] > 0) fresh.add(maker, cell, boxOf<D>(level, mass, cell, contained, lane));
+      }
+    });
+  };
+  sumOverBoxes<D>(around, old.x, visit, finish, sums);
 }
 
 template void remap<1>(const Patch&, const OldBoxes<1>&, CellView<const double>, CellView<const double>, ParticleMaker&,

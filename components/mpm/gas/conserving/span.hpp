@@ -62,6 +62,7 @@ struct Span {
   std::array<Lanes, most> part;        ///< fractions of the interval in each cell; their sum is 1
   std::array<Lanes, most + 1> weight;  ///< weights of the nodes; their sum is 1
   std::array<Lanes, most + 1> arm;     ///< distances of the nodes from the centre [m]
+  std::array<Lanes, most + 1> lever;   ///< products of weight and arm [m]
   std::array<Lanes, most + 1> atLower, atUpper;  ///< weights of the nodes in the values at the ends
   Lanes inertia;                                 ///< sum of weight times arm² [m²]
   Lanes lower, upper;                            ///< ends of the interval [m]
@@ -176,7 +177,8 @@ struct Span {
     inertia = sumOverNodes<Lanes>(
         extent, [&](int k, Lanes& sum) __attribute__((always_inline)) {
           const std::size_t at = static_cast<std::size_t>(k);
-          sum += weight[at] * arm[at] * arm[at];
+          lever[at] = weight[at] * arm[at];
+          sum += lever[at] * arm[at];
         });
   }
 };

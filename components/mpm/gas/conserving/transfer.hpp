@@ -1,7 +1,6 @@
 #pragma once
 
-#include "components/mpm/gas/conserving/footprint.hpp"
-#include "components/mpm/gas/conserving/grid_sums.hpp"
+#include "components/mpm/gas/conserving/box_sums.hpp"
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/symmetry_planes.hpp"
@@ -13,10 +12,11 @@ template <int D, bool Fills>
 struct Gathering {
   static constexpr std::size_t nodeSums = 1 + D, cellSums = Fills ? 3 : 2;
 
-  GridSums<D, nodeSums, 1> nodes;
-  GridSums<D, cellSums, 0> cells;
+  BoxSums<D, nodeSums, 1> nodes;
+  BoxSums<D, cellSums, 0> cells;
 
-  explicit Gathering(const Box& around) : nodes(around), cells(around) {}
+  explicit Gathering(const RowsAround<D>& around)
+      : nodes(around.rows, around.blocks), cells(around.rows, around.blocks) {}
 
   [[gnu::always_inline]] void add(const Footprint<D>& footprint, const std::array<Lanes, 3>& massEnergyVolume,
                                   const typename Footprint<D>::template Field<D - 1>& velocity) {
@@ -28,37 +28,36 @@ struct Gathering {
 
  private:
   template <int Below, int Cells>
-  [[gnu::always_inline]] void addToCells(Extent<Below, Cells>, const Footprint<D>& footprint,
+  [[gnu::always_inline]] void addToCells(Extent<Below, Cells> extent, const Footprint<D>& footprint,
                                          const std::array<Lanes, 3>& massEnergyVolume) {
-    const std::size_t first = cells.placeOf(footprint);
     footprint.forEachRowOfCells([&](const Index<D>& k, const Lanes& part) __attribute__((always_inline)) {
-      std::array<Lanes, Cells> shares;
-      for (std::size_t c = 0; c < Cells; ++c) shares[c] = part * footprint.along[0].part[c];
-      for (std::size_t n = 0; n < cellSums; ++n) {
-        std::array<Lanes, Cells> terms;
-        for (std::size_t c = 0; c < Cells; ++c) terms[c] = shares[c] * massEnergyVolume[n];
-        cells.rowAt(n, first + static_cast<std::size_t>(cells.distance(k))).add(terms);
-      }
+      cells.add(
+          footprint, k, [&](std::size_t n) __attribute__((always_inline)) {
+            const Lanes held = part * massEnergyVolume[n];
+            std::array<Lanes, Cells> terms;
+            for (std::size_t c = 0; c < Cells; ++c) terms[c] = footprint.along[0].part[c] * held;
+            return cells.widened(extent, terms);
+          });
     });
   }
   template <int Below, int Cells>
-  [[gnu::always_inline]] void addToNodes(Extent<Below, Cells>, const Footprint<D>& footprint, const Lanes& mass,
+  [[gnu::always_inline]] void addToNodes(Extent<Below, Cells> extent, const Footprint<D>& footprint, const Lanes& mass,
                                          const typename Footprint<D>::template Field<D - 1>& velocity) {
-    const std::size_t first = nodes.placeOf(footprint);
     const auto& span = footprint.along[0];
     footprint.forEachRowOfNodes(
         velocity, [&](const Index<D>& k, const Lanes& w, const auto& field) __attribute__((always_inline)) {
-          const std::size_t place = first + static_cast<std::size_t>(nodes.distance(k));
+          const Lanes inRow = w * mass;
           std::array<Lanes, Cells + 1> m;
-          for (std::size_t c = 0; c <= Cells; ++c) m[c] = w * span.weight[c] * mass;
-          nodes.rowAt(0, place).add(m);
-          for (std::size_t d = 0; d < D; ++d) {
-            const int axis = static_cast<int>(d);
-            std::array<Lanes, Cells + 1> momentum;
-            for (std::size_t c = 0; c <= Cells; ++c)
-              momentum[c] = m[c] * (field[0][axis] + span.arm[c] * field[1][axis]);
-            nodes.rowAt(d + 1, place).add(momentum);
-          }
+          for (std::size_t c = 0; c <= Cells; ++c) m[c] = span.weight[c] * inRow;
+          nodes.add(
+              footprint, k, [&](std::size_t n) __attribute__((always_inline)) {
+                if (n == 0) return nodes.widened(extent, m);
+                const int axis = static_cast<int>(n) - 1;
+                std::array<Lanes, Cells + 1> momentum;
+                for (std::size_t c = 0; c <= Cells; ++c)
+                  momentum[c] = m[c] * multiplyAdd(span.arm[c], field[1][axis], field[0][axis]);
+                return nodes.widened(extent, momentum);
+              });
         });
   }
 };
@@ -96,28 +95,31 @@ struct ParticlesToGrid {
 /// If `Fills`, calls `visitFill(part, volume)` with the volumes of the boxes in the cells of each part of a row.
 template <int D, bool Fills, class Visit>
 void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visitFill) {
-  Gathering<D, Fills> sums(t.x.cells());
+  const RowsAround<D> around(patch, t.x.cells(), 1);
+  Gathering<D, Fills> sums(around);
   const CellsOf<D> grid(patch.level());
-  forEachBatch<D>(
-      t.x.cells(), t.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
-        const LanesVec<D> size = load(t.edges, batch);
-        const Footprint<D> footprint(grid, batch, load(t.x, batch), size);
-        const Lanes m = batch.only(load(t.mass, batch));
-        sums.add(footprint, {m, m * load(t.internalEnergy, batch), batch.only(size.prod())},
-                 fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
-      });
-  forEachRowPart<D>(t.cellMass.box(), [&](const RowPart<D>& part) {
-    store(sums.cells.readRow(0, part.first), t.cellMass, part);
-    store(sums.cells.readRow(1, part.first), t.cellInternalEnergy, part);
-    if constexpr (Fills) visitFill(part, sums.cells.readRow(2, part.first));
-  });
-  forEachRowPart<D>(t.nodeMass.box(), [&](const RowPart<D>& part) {
-    const Lanes m = sums.nodes.readRow(0, part.first), inverse = select(m > 0, 1 / m, 0);
-    LanesVec<D> v;
-    for (std::size_t d = 0; d < D; ++d) v[static_cast<int>(d)] = inverse * sums.nodes.readRow(d + 1, part.first);
-    store(m, t.nodeMass, part);
-    store(v, t.nodeVelocity, part);
-  });
+  const auto visit = [&](const Batch<D>& batch) __attribute__((always_inline)) {
+    const LanesVec<D> size = load(t.edges, batch);
+    const Footprint<D> footprint(grid, batch, load(t.x, batch), size);
+    const Lanes m = batch.only(load(t.mass, batch));
+    sums.add(footprint, {m, m * load(t.internalEnergy, batch), batch.only(size.prod())},
+             fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
+  };
+  const auto finish = [&](const Index<D>& row) {
+    forEachPartOfRow<D>(t.cellMass.box(), row, [&](const RowPart<D>& part) {
+      store(sums.cells.readRow(0, part.first), t.cellMass, part);
+      store(sums.cells.readRow(1, part.first), t.cellInternalEnergy, part);
+      if constexpr (Fills) visitFill(part, sums.cells.readRow(2, part.first));
+    });
+    forEachPartOfRow<D>(t.nodeMass.box(), row, [&](const RowPart<D>& part) {
+      const Lanes m = sums.nodes.readRow(0, part.first), inverse = select(m > 0, 1 / m, 0);
+      LanesVec<D> v;
+      for (std::size_t d = 0; d < D; ++d) v[static_cast<int>(d)] = inverse * sums.nodes.readRow(d + 1, part.first);
+      store(m, t.nodeMass, part);
+      store(v, t.nodeVelocity, part);
+    });
+  };
+  sumOverBoxes<D>(around, t.x, visit, finish, sums.nodes, sums.cells);
   stopAtSymmetryPlanes<D>(patch, t.nodeVelocity);
 }
 

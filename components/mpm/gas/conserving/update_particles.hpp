@@ -14,14 +14,20 @@ struct Gathered {
   /// The velocity of a face [m/s]; without apic, only its normal component.
   using FaceVelocity = std::array<Lanes, faceParts>;
 
-  std::array<LanesVec<D>, apic ? 1 : 1 << (Axis + 1)> moments;  ///< sums of y phi_a; for apic, only the first one
-  std::array<FaceVelocity, Axis + 1> lower, upper;              ///< velocities of the faces normal to each axis
+  /// For apic, the sum of y = v + dt a [m/s]. Otherwise the sums of g phi_a, where g is the change of the velocity.
+  std::array<LanesVec<D>, apic ? 1 : 1 << (Axis + 1)> moments;
+  std::array<FaceVelocity, Axis + 1> lower, upper;  ///< velocities of the faces normal to each axis
   /// Means of v + faceTime dt a over the nodes [m/s], of its components along the axes behind `Axis`; for apic, the
   /// first moment is the same.
   std::array<Lanes, apic ? 0 : D - 1 - Axis> moving;
   Lanes slip;    ///< beta (2 - beta) |r|² / 2 [J/kg]; for apic, twice this
-  Lanes square;  ///< |y|² [J/kg]
+  Lanes square;  ///< |y|² or |g|² [J/kg]
 
+  static Gathered zero() {
+    Gathered none{};
+    none.moments.fill(LanesVec<D>::Zero());
+    return none;
+  }
   static Lanes normal(int axis, const FaceVelocity& velocity) { return velocity[apic ? axis : 0]; }
   /// Part of the mean velocity with which the faces move that are normal to the axis behind `Axis`.
   [[gnu::always_inline]] const Lanes& ofNextFace(int part) const {
@@ -33,40 +39,29 @@ struct Gathered {
   Lanes slipEnergy() const { return !Scheme::relaxes ? 0 : apic ? 0.5 * slip : slip; }
 };
 
-/// The sum over the nodes of an axis, in the order of Span::sumOverNodes; `term(k)` is the term of node k.
-template <int Below, int Cells, class Term>
-[[gnu::always_inline]] inline Lanes sumOfTerms(Extent<Below, Cells>, Term&& term) {
-  Lanes lowerSide = term(std::size_t{Below}), upperSide = term(std::size_t{Below + 1});
-#pragma GCC unroll 8
-  for (std::size_t k = Below; k > 0; --k) lowerSide += term(k - 1);
-#pragma GCC unroll 8
-  for (std::size_t k = Below + 2; k <= Cells; ++k) upperSide += term(k);
-  return lowerSide + upperSide;
-}
-
 /// The terms of a node in the sums over a row, without the weights of other axes.
 template <int D, class Scheme>
 struct AtNode {
   using Fields = MotionOf<D, Scheme>;
   static constexpr bool apic = Scheme::transfer == Transfer::apic;
 
-  LanesVec<D> y, moving;
+  LanesVec<D> later;  ///< y or g
   Lanes slip, square;
 
   [[gnu::always_inline]] AtNode(const RowReader<D>& read, int k, const Lanes& arm,
                                 const typename Footprint<D>::template Field<0>& field) {
+    later = read.vector(Fields::later, k);
+    square = read(Fields::square, k);
+    if constexpr (!Scheme::relaxes) return;
     LanesVec<D> r;
-    for (int d = 0; d < D; ++d) r[d] = field[0][d] + arm * field[1][d];
-    r -= read.vector(0, k);
-    y = read.vector(Fields::accelerated, k);
-    if constexpr (apic) {
-      moving = y;
-      slip = r.squaredNorm();
-    } else {
-      moving = read.vector(Fields::moving, k);
-      const Lanes kept = Scheme::relaxes ? read(Fields::kept, k) : Lanes(1);
-      for (int d = 0; d < D; ++d) y[d] += Scheme::relaxes ? kept * r[d] : r[d];
-      if constexpr (Scheme::relaxes) slip = r.squaredNorm();
+    for (int d = 0; d < D; ++d)
+      r[d] = multiplyAdd(arm, field[1][d], field[0][d]) - read(static_cast<std::size_t>(d), k);
+    slip = squareOf<D>(r);
+    if constexpr (!apic) {
+      const Lanes lost = -read(Fields::beta, k);
+      for (int d = 0; d < D; ++d) later[d] = multiplyAdd(lost, r[d], later[d]);
+      square = squareOf<D>(later);
+      slip *= read(Fields::slip, k);
     }
   }
 };
@@ -78,69 +73,72 @@ template <int D, class Scheme, bool isFirst>
                                            const typename Footprint<D>::template Field<0>& field,
                                            Gathered<D, Scheme, 0>& sum) {
   constexpr bool apic = Scheme::transfer == Transfer::apic;
+  using Fields = MotionOf<D, Scheme>;
   const AtNode<D, Scheme> node(read, static_cast<int>(k), span.arm[k], field);
-  const auto add = [](Lanes & to, const Lanes& term) __attribute__((always_inline)) {
+  const auto add = [](Lanes & to, const Lanes& factor, const Lanes& value) __attribute__((always_inline)) {
     if constexpr (isFirst)
-      to = term;
+      to = factor * value;
     else
-      to += term;
+      to = multiplyAdd(factor, value, to);
   };
   const Lanes w = span.weight[k];
-  LanesVec<D> wy;
   for (int d = 0; d < D; ++d) {
-    wy[d] = w * node.y[d];
-    add(sum.moments[0][d], wy[d]);
-    if constexpr (!apic) add(sum.moments[1][d], span.arm[k] * wy[d]);
+    add(sum.moments[0][d], w, node.later[d]);
+    if constexpr (!apic) add(sum.moments[1][d], span.lever[k], node.later[d]);
   }
-  for (std::size_t d = 0; d < sum.moving.size(); ++d) add(sum.moving[d], w * node.moving[static_cast<int>(d) + 1]);
   for (std::size_t part = 0; part < sum.lower[0].size(); ++part) {
-    const Lanes moving = node.moving[static_cast<int>(part)];
-    add(sum.lower[0][part], span.atLower[k] * moving);
-    add(sum.upper[0][part], span.atUpper[k] * moving);
+    const Lanes moving = apic ? node.later[static_cast<int>(part)] : read(Fields::moving, static_cast<int>(k));
+    add(sum.lower[0][part], span.atLower[k], moving);
+    add(sum.upper[0][part], span.atUpper[k], moving);
   }
-  if constexpr (apic)
-    add(sum.slip, w * node.slip);
-  else if constexpr (Scheme::relaxes)
-    add(sum.slip, w * read(MotionOf<D, Scheme>::slip, static_cast<int>(k)) * node.slip);
-  add(sum.square, wy.dot(node.y));
+  for (std::size_t d = 0; d < sum.moving.size(); ++d)
+    add(sum.moving[d], w, read(Fields::moving + d + 1, static_cast<int>(k)));
+  if constexpr (Scheme::relaxes) add(sum.slip, w, node.slip);
+  add(sum.square, w, node.square);
 }
 
-/// Combines the sums over rows to those over a plane, or the sums over planes to those over the footprint.
-template <int D, class Scheme, int Axis, class Along>
-[[gnu::always_inline]] inline void combine(Along extent, const Span<Footprint<D>::overhang>& span,
-                                           const Gathered<D, Scheme, Axis - 1>* slices,
-                                           Gathered<D, Scheme, Axis>& sum) {
+/// Adds the sums over a row to those over a plane, or the sums over a plane to those over the footprint.
+template <int D, class Scheme, int Axis>
+[[gnu::always_inline]] inline void addSlice(const Span<Footprint<D>::overhang>& span, std::size_t k,
+                                            const Gathered<D, Scheme, Axis - 1>& slice,
+                                            Gathered<D, Scheme, Axis>& sum) {
   constexpr std::size_t half = std::size_t{1} << Axis;
-  const auto weighted = [&](const auto& of) __attribute__((always_inline)) {
-    return sumOfTerms(
-        extent, [&](std::size_t k) __attribute__((always_inline)) { return span.weight[k] * of(slices[k]); });
+  const Lanes w = span.weight[k];
+  const auto add = [](Lanes & to, const Lanes& factor, const Lanes& value) __attribute__((always_inline)) {
+    to = multiplyAdd(factor, value, to);
   };
-  for (std::size_t a = 0; a < slices->moments.size(); ++a)
+  for (std::size_t a = 0; a < slice.moments.size(); ++a)
     for (int d = 0; d < D; ++d) {
-      sum.moments[a][d] = weighted([&](const auto& slice) { return slice.moments[a][d]; });
+      add(sum.moments[a][d], w, slice.moments[a][d]);
       if constexpr (Scheme::transfer != Transfer::apic)
-        sum.moments[a + half][d] = sumOfTerms(
-            extent, [&](std::size_t k) __attribute__((always_inline)) {
-              return span.weight[k] * span.arm[k] * slices[k].moments[a][d];
-            });
+        add(sum.moments[a + half][d], span.lever[k], slice.moments[a][d]);
     }
   for (std::size_t part = 0; part < sum.lower[0].size(); ++part) {
     for (std::size_t d = 0; d < Axis; ++d) {
-      sum.lower[d][part] = weighted([&](const auto& slice) { return slice.lower[d][part]; });
-      sum.upper[d][part] = weighted([&](const auto& slice) { return slice.upper[d][part]; });
+      add(sum.lower[d][part], w, slice.lower[d][part]);
+      add(sum.upper[d][part], w, slice.upper[d][part]);
     }
-    const int at = static_cast<int>(part);
-    sum.lower[Axis][part] = sumOfTerms(
-        extent, [&](std::size_t k)
-                    __attribute__((always_inline)) { return span.atLower[k] * slices[k].ofNextFace(at); });
-    sum.upper[Axis][part] = sumOfTerms(
-        extent, [&](std::size_t k)
-                    __attribute__((always_inline)) { return span.atUpper[k] * slices[k].ofNextFace(at); });
+    add(sum.lower[Axis][part], span.atLower[k], slice.ofNextFace(static_cast<int>(part)));
+    add(sum.upper[Axis][part], span.atUpper[k], slice.ofNextFace(static_cast<int>(part)));
   }
-  for (std::size_t d = 0; d < sum.moving.size(); ++d)
-    sum.moving[d] = weighted([&](const auto& slice) { return slice.moving[d + 1]; });
-  if constexpr (Scheme::relaxes) sum.slip = weighted([](const auto& slice) { return slice.slip; });
-  sum.square = weighted([](const auto& slice) { return slice.square; });
+  for (std::size_t d = 0; d < sum.moving.size(); ++d) add(sum.moving[d], w, slice.moving[d + 1]);
+  if constexpr (Scheme::relaxes) add(sum.slip, w, slice.slip);
+  add(sum.square, w, slice.square);
+}
+
+/// Adds the sums over the nodes on one side of the middle of an axis to those on the other side.
+template <int D, class Scheme, int Axis>
+[[gnu::always_inline]] inline void addSide(const Gathered<D, Scheme, Axis>& side, Gathered<D, Scheme, Axis>& sum) {
+  for (std::size_t a = 0; a < sum.moments.size(); ++a)
+    for (int d = 0; d < D; ++d) sum.moments[a][d] += side.moments[a][d];
+  for (std::size_t d = 0; d <= Axis; ++d)
+    for (std::size_t part = 0; part < sum.lower[0].size(); ++part) {
+      sum.lower[d][part] += side.lower[d][part];
+      sum.upper[d][part] += side.upper[d][part];
+    }
+  for (std::size_t d = 0; d < sum.moving.size(); ++d) sum.moving[d] += side.moving[d];
+  if constexpr (Scheme::relaxes) sum.slip += side.slip;
+  sum.square += side.square;
 }
 
 /// Sums over a row of nodes.
@@ -156,17 +154,11 @@ template <int D, class Scheme, int Below, int Cells>
   addNode<D, Scheme, true>(span, Below + 1, row, field, side);
 #pragma GCC unroll 8
   for (std::size_t k = Below + 2; k <= Cells; ++k) addNode<D, Scheme, false>(span, k, row, field, side);
-  for (std::size_t a = 0; a < sum.moments.size(); ++a)
-    for (int d = 0; d < D; ++d) sum.moments[a][d] += side.moments[a][d];
-  for (std::size_t part = 0; part < sum.lower[0].size(); ++part) {
-    sum.lower[0][part] += side.lower[0][part];
-    sum.upper[0][part] += side.upper[0][part];
-  }
-  for (std::size_t d = 0; d < sum.moving.size(); ++d) sum.moving[d] += side.moving[d];
-  if constexpr (Scheme::relaxes) sum.slip += side.slip;
-  sum.square += side.square;
+  addSide<D, Scheme, 0>(side, sum);
 }
 
+/// Sums over the nodes of the footprint, or of a plane or row of it. On either side of the middle of an axis, they are
+/// added from the inside out, so that the mirror image has the same sum.
 template <int D, class Scheme, int Axis, class Row>
 [[gnu::always_inline]] inline void gatherFromNodes(Row extent, const Footprint<D>& footprint, Index<D>& at,
                                                    const Reader<D, MotionOf<D, Scheme>>& read,
@@ -176,15 +168,21 @@ template <int D, class Scheme, int Axis, class Row>
   if constexpr (Axis == 0) {
     gatherFromRow<D, Scheme>(extent, span, read.row(at), field, sum);
   } else {
-    std::array<Gathered<D, Scheme, Axis - 1>, Footprint<D>::most + 1> slices;
-    for (at[Axis] = 0; at[Axis] < span.nodes(); ++at[Axis]) {
-      const std::size_t k = static_cast<std::size_t>(at[Axis]);
-      gatherFromNodes<D, Scheme, Axis - 1>(extent, footprint, at, read,
-                                           Footprint<D>::template slice<Axis>(field, span.arm[k]), slices[k]);
-    }
-    footprint.template withExtentAlong<Axis>([&](auto along) __attribute__((always_inline)) {
-      combine<D, Scheme, Axis>(along, span, slices.data(), sum);
-    });
+    const auto gatherSide = [&](int from, int step, int end, Gathered<D, Scheme, Axis>& side)
+        __attribute__((always_inline)) {
+      side = Gathered<D, Scheme, Axis>::zero();
+      for (at[Axis] = from; at[Axis] != end; at[Axis] += step) {
+        const std::size_t k = static_cast<std::size_t>(at[Axis]);
+        Gathered<D, Scheme, Axis - 1> slice;
+        gatherFromNodes<D, Scheme, Axis - 1>(extent, footprint, at, read,
+                                             Footprint<D>::template slice<Axis>(field, span.arm[k]), slice);
+        addSlice<D, Scheme, Axis>(span, k, slice, side);
+      }
+    };
+    Gathered<D, Scheme, Axis> side;
+    gatherSide(span.below, -1, -1, sum);
+    gatherSide(span.below + 1, 1, span.nodes(), side);
+    addSide<D, Scheme, Axis>(side, sum);
   }
 }
 
@@ -196,7 +194,7 @@ template <int D, class Fields, class Row>
     const RowReader<D> row = read.row(at);
     return span.sumOverCells(
         extent, [&](int k, Lanes& sum) __attribute__((always_inline)) {
-          sum += part * span.part[static_cast<std::size_t>(k)] * row(Fields::work, k);
+          sum = multiplyAdd(part * span.part[static_cast<std::size_t>(k)], row(Fields::work, k), sum);
         });
   });
 }
@@ -226,22 +224,26 @@ template <int D>
   }
 }
 
-/// Updates the particles of a batch, whose footprints have the given extent along the first axis.
-template <int D, class Scheme, class Row>
-[[gnu::always_inline]] inline void updateBatch(Row extent, const Level& level, const Batch<D>& batch,
-                                               const Footprint<D>& footprint, const MotionOf<D, Scheme>& motion,
-                                               const ParticleUpdate<D>& update, double dt, Minimum& factor) {
+/// Updates the particles of a batch.
+template <int D, class Scheme>
+[[gnu::always_inline]] inline void updateBatch(const Level& level, const Batch<D>& batch, const Footprint<D>& footprint,
+                                               const MotionOf<D, Scheme>& motion, const ParticleUpdate<D>& update,
+                                               double dt, Minimum& factor) {
   constexpr bool apic = Scheme::transfer == Transfer::apic;
   const LanesModes<D> u = load(update.modes, batch);
+  const LanesVec<D> v = load(update.velocity, batch);
   const Reader<D, MotionOf<D, Scheme>> read(motion, footprint);
-  Index<D> at;
   Gathered<D, Scheme, D - 1> taken;
-  gatherFromNodes<D, Scheme, D - 1>(extent, footprint, at, read, fieldOf<D>(load(update.velocity, batch), u), taken);
+  Lanes done;
+  footprint.withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
+    Index<D> at;
+    gatherFromNodes<D, Scheme, D - 1>(extent, footprint, at, read, fieldOf<D>(v, u), taken);
+    done = workOn(extent, footprint, read);
+  });
   const LanesVec<D> inertia = footprint.inertia();
-  const auto products = productsOver(inertia);
-  LanesModes<D> fresh = LanesModes<D>::Zero();
+  LanesModes<D> fresh;
   LanesVec<D> mean, centre, size;
-  for (int d = 0; d < D; ++d) mean[d] = taken.moments[0][d] + 0;  // never -0
+  for (int d = 0; d < D; ++d) mean[d] = (apic ? Lanes(0) : v[d]) + taken.moments[0][d];  // never -0
   for (std::size_t d = 0; d < D; ++d) {
     const auto& span = footprint.along[d];
     const int axis = static_cast<int>(d);
@@ -250,23 +252,37 @@ template <int D, class Scheme, class Row>
     centre[axis] = 0.5 * (lower + upper);
     size[axis] = upper - lower;
     limitEdges(batch, span.length(), size[axis], Footprint<D>::longest * level.spacing(axis), factor);
-    if constexpr (apic)
-      for (std::size_t part = 0; part < D; ++part)
-        fresh(static_cast<int>(part), gradientColumn(axis)) =
-            ((taken.upper[d][part] + 0) - (taken.lower[d][part] + 0)) / span.length();
   }
-  for (std::size_t a = 1; a < taken.moments.size(); ++a)
-    for (int d = 0; d < D; ++d) fresh(d, static_cast<int>(a) - 1) = (taken.moments[a][d] + 0) / products[a];
-  const Lanes within = max(0.0, 0.5 * (taken.square - mean.squaredNorm()));
-  const Lanes affine = apic ? within : min(within, modalEnergy<D>(fresh, inertia));
+  Lanes affine, rest;  // kinetic energy about the mean that the modes contain, and that they do not
+  if constexpr (apic) {
+    fresh = LanesModes<D>::Zero();
+    for (std::size_t d = 0; d < D; ++d)
+      for (std::size_t part = 0; part < D; ++part)
+        fresh(static_cast<int>(part), gradientColumn(static_cast<int>(d))) =
+            ((taken.upper[d][part] + 0) - (taken.lower[d][part] + 0)) / footprint.along[d].length();
+    affine = max(0.0, 0.5 * (taken.square - mean.squaredNorm()));
+    rest = 0;
+  } else {
+    const auto products = productsOver(inertia);
+    rest = taken.square - squareOf<D>(taken.moments[0]);
+    for (std::size_t a = 1; a < taken.moments.size(); ++a) {
+      const Lanes inverse = 1 / products[a];
+      rest -= inverse * squareOf<D>(taken.moments[a]);
+      for (int d = 0; d < D; ++d) {
+        const int column = static_cast<int>(a) - 1;
+        fresh(d, column) = multiplyAdd(inverse, taken.moments[a][d], u(d, column)) + 0;
+      }
+    }
+    affine = modalEnergy<D>(fresh, inertia);
+    rest = max(0.0, 0.5 * rest);
+  }
   store(centre, update.newX, batch);
   store(size, update.newEdges, batch);
   store(mean, update.newVelocity, batch);
   store(fresh, update.newModes, batch);
   store(affine, update.newAffineEnergy, batch);
-  const Lanes done = workOn(extent, footprint, read);
   const Lanes energy = load(update.internalEnergy, batch) * (1 + done) + load(update.affineEnergy, batch) -
-                       modalEnergy<D>(u, inertia) + taken.slipEnergy() + (within - affine);
+                       modalEnergy<D>(u, inertia) + taken.slipEnergy() + rest;
   limitCooling(batch, done, energy, factor);
   store(energy, update.newInternalEnergy, batch);
 }
@@ -278,20 +294,20 @@ void updateAll(const Patch& patch, const ParticleUpdate<D>& update, const Motion
   forEachBatch<D>(
       patch.cells(), update.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
         const Footprint<D> footprint(grid, batch, load(update.x, batch), load(update.edges, batch));
-        footprint.withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
-          updateBatch<D, Scheme>(extent, patch.level(), batch, footprint, motion, update, dt, factor);
-        });
+        updateBatch<D, Scheme>(patch.level(), batch, footprint, motion, update, dt, factor);
       });
 }
 
 /// Updates particles from node velocities v, accelerations a and relaxations beta, and from the work f on cells.
 ///
-/// With z = u(x_i), r = z - v_i, y = z - beta r + dt a_i (apic: beta = 1, so that y = v_i + dt a_i), and means over the
-/// box, sum of w_i:
-///   (E1) new modes  u_a = <y phi_a> / I_a;  apic: the gradient is the difference of <y> over opposite faces
+/// With z = u(x_i), r = z - v_i, g = dt a_i - beta r, and means over the box, sum of w_i, the grid replaces z by y = z
+/// + g (apic: beta = 1, so that y = v_i + dt a_i):
+///   (E1) new modes  u_a + <g phi_a> / I_a;  apic: <y>, and the gradient is the difference of <y> over opposite faces
 ///   (E2) new affine energy  K_A = 1/2 sum over a of I_a |u_a|²;  apic: (<|y|²> - |u_0|²) / 2
-///   (E3) new e = e (1 + sum o_c f_c) + K_A,old - K_old + <beta (2 - beta) |r|²> / 2 + (<|y|²> - |u_0|²) / 2 - K_A
-/// so that the kinetic energy that a transfer loses becomes heat. Each face moves with the mean of its normal velocity
+///   (E3) new e = e (1 + sum o_c f_c) + K_A,old - K_old + <beta (2 - beta) |r|²> / 2 + R
+/// so that the kinetic energy that a transfer loses becomes heat. R is the kinetic energy that the new modes cannot
+/// represent, (<|g|²> - sum over all a of |<g phi_a>|² / I_a) / 2; apic: 0. Because the phi_a are orthogonal, <phi_a
+/// phi_b> = 0, modes that represent z exactly need no sums over z. Each face moves with the mean of its normal velocity
 /// v + dt a / 2 (apic: v + dt a). A step that limitEdges or limitCooling refuses is repeated with `factor` times dt.
 template <int D, class Scheme>
 void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& update, double dt, Minimum& factor) {

@@ -22,19 +22,6 @@ Interval intervalAt(const Level& level, double centre, double length) {
   return Interval(level, 0, LaneIntegers{} + level.cellAlong(0, centre), centre, length);
 }
 
-Lanes at(const Lanes& values, int lane, double value) {
-  return Lanes::of([&](int other) { return other == lane ? value : values[other]; });
-}
-
-void addParts(const Level& level, const Batch<2>& batch, const LanesVec<2>& centre, const LanesVec<2>& edges,
-              GridSums<2, 1, 0>& sums) {
-  const Footprint<2> footprint(level, batch, centre, edges);
-  GridSums<2, 1, 0>::Brought brought;
-  footprint.forEachPart(
-      [&](const Index<2>& k, const Lanes& part) { brought[0][Footprint<2>::number(k)] = batch.only(part); });
-  sums.add(footprint, brought);
-}
-
 /// Returns the sum of the first `count` values.
 double sumOf(const auto& values, int count) {
   double sum = 0;
@@ -180,60 +167,6 @@ TEST(Footprint, EvaluatesMultilinearFieldsAtTheNodes) {
       for (int d = 0; d < 2; ++d) EXPECT_NEAR(value[d][0], there[d], 1e-14);
     }
   });
-}
-
-TEST(GridSums, AreTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
-  const Level level(test::domain({{8, 6, 1}}));
-  std::mt19937 generator(3);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  GridSums<2, 1, 0> together(level.cells()), apart(level.cells());
-  for (int row = 1; row < 5; ++row) {
-    const Batch<2> all({{0, row}}, LaneIntegers{}, Lanes::Mask{} - 1);
-    LanesVec<2> centre, edges;
-    for (int lane = 0; lane < Lanes::count; ++lane) {
-      const Index<2> cell{{lane, row}};
-      for (int d = 0; d < 2; ++d) {
-        centre[d] =
-            at(centre[d], lane, level.nodePosition(d, cell[d]) + (0.6 + 0.1 * uniform(generator)) * level.spacing(d));
-        edges[d] = at(edges[d], lane, level.spacing(d));
-      }
-    }
-    addParts(level, all, centre, edges, together);
-    for (int lane = 0; lane < Lanes::count; ++lane) {
-      LanesVec<2> x, size;
-      for (int d = 0; d < 2; ++d) {
-        x[d] = centre[d][lane];
-        size[d] = edges[d][lane];
-      }
-      addParts(level, batchOfOne<2>({{lane, row}}), x, size, apart);
-    }
-  }
-  forEach<2>(level.cells(), [&](const Index<2>& cell) { EXPECT_EQ(together.at(0, cell), apart.at(0, cell)); });
-  EXPECT_GT(together.at(0, {{1, 3}}), 0);
-}
-
-TEST(GridSums, DoNotDependOnTheOrderOfTheParticles) {
-  const Level level(test::domain({{8, 6, 1}}));
-  std::mt19937 generator(5);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<std::pair<Vec<2>, Vec<2>>> boxes;
-  for (int k = 0; k < 200; ++k)
-    boxes.push_back(
-        {{0.4 + 0.2 * uniform(generator), 0.2 + 0.2 * uniform(generator)}, {0.125 * uniform(generator), 0.1}});
-  const auto sumsOf = [&] {
-    GridSums<2, 1, 0> sums(level.cells());
-    for (const auto& [x, edges] : boxes) {
-      addParts(level, batchOfOne(level.cellOf<2>(x)), x.cast<Lanes>(), edges.cast<Lanes>(), sums);
-    }
-    std::vector<double> all;
-    forEach<2>(level.cells(), [&](const Index<2>& cell) { all.push_back(sums.at(0, cell)); });
-    return all;
-  };
-
-  const std::vector<double> forwards = sumsOf();
-  std::shuffle(boxes.begin(), boxes.end(), generator);
-
-  EXPECT_EQ(sumsOf(), forwards);
 }
 
 }  // namespace tushar::mpm::gas::conserving

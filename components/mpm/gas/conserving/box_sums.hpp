@@ -1,0 +1,302 @@
+#pragma once
+
+#include <vector>
+
+#include "components/mpm/gas/conserving/footprint.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// N sums over boxes at the nodes (More = 1) or cells (More = 0) around rows of cells; sumOverBoxes fills them.
+///
+/// A sum is bitwise the same for all patches and for the mirror image, because the order of its additions depends only
+/// on which cell contains which particles: the particles of a cell are added first, then the cells of a row, then the
+/// rows of a plane, then the planes. Of the cells (or rows, or planes) that can reach a node, the two at the same
+/// distance on either side are added to each other, and then these pairs, from the outermost inwards. The sum over more
+/// than two particles of a cell includes the rounding errors of its additions, so that their order does not matter
+/// unless the sum lies within about 1e-32 of the midpoint of two floating-point numbers.
+///
+/// Only rows and planes that wait for others are stored. They use the same memory in turn, which stays in the caches of
+/// the processor.
+template <int D, std::size_t N, int More>
+class BoxSums {
+  static constexpr int overhang = Footprint<D>::overhang;
+  /// Number of nodes or cells along an axis that the particles of a cell can reach.
+  static constexpr std::size_t width = static_cast<std::size_t>(Footprint<D>::most + More);
+  static constexpr std::size_t pairs = (width + 1) / 2;
+  static constexpr std::size_t rows = D == 1 ? 1 : D == 2 ? width : width * width;
+  static constexpr std::size_t slots = 4;  ///< number of rows, or planes, that wait at the same time
+  static_assert(D == 1 || width <= slots);
+  /// Number of earlier blocks of a row whose particles reach nodes of the block that is completed.
+  static constexpr std::size_t history = (width - 2) / Lanes::count + 1;
+
+ public:
+  static constexpr int more = More;
+  /// What the particles of a block bring to a row of nodes or cells around it: each lane has a cell, and brings to
+  /// `width` nodes or cells, the lowest first. A block is Lanes::count consecutive cells of a row.
+  using Terms = std::array<Lanes, width>;
+
+  /// `visited` contains the rows of cells that are visited, each of which has `blocks` blocks.
+  BoxSums(const Box& visited, int blocks)
+      : first_(visited.lower[0] - overhang),
+        length_(static_cast<std::size_t>(blocks * Lanes::count)),
+        past_(history * rows),
+        finished_(N * length_) {
+    for (int d = 1; d < D; ++d) lowest_[d] = visited.lower[d];
+    if constexpr (D > 1) waiting_[0].resize(rows / width * slots * pairs * finished_.size());
+    if constexpr (D > 2) {
+      along_ = static_cast<std::size_t>(visited.extent(1));
+      waiting_[1].resize(slots * pairs * along_ * finished_.size());
+    }
+  }
+
+  void beginRow(const Index<D>& row) {
+    for (int d = 1; d < D; ++d) row_[static_cast<std::size_t>(d)] = static_cast<std::size_t>(row[d] - lowest_[d]);
+    emptyFor_.fill(history);
+    std::fill(past_.begin(), past_.end(), typename decltype(past_)::value_type{});
+    place_ = 0;
+  }
+  /// Begins the next block of a row; `most` is the largest number of particles in one of its cells.
+  void beginBlock(int most) {
+    most_ = most;
+    isBrought_.fill(false);
+    if (most > 1) sums_.assign(rows, {});
+    if (most > 2) lost_.assign(rows, {});
+  }
+  /// Adds terms to the sums in a row of nodes or cells, the k-th of the footprints of a batch: `terms(n)` to sum n.
+  /// Lanes without a particle bring 0.
+  template <class TermsOf>
+  [[gnu::always_inline]] void add(const Footprint<D>& footprint, const Index<D>& k, TermsOf&& terms) {
+    const std::size_t row = rowOf(footprint, k);
+    if (most_ > 1) {
+      for (std::size_t n = 0; n < N; ++n) addMore(row, n, terms(n));
+    } else {
+      isBrought_[row] = true;
+      const Way way = wayOf(row);
+#pragma GCC unroll 4
+      for (std::size_t n = 0; n < N; ++n) bring(way, n, terms(n));
+    }
+  }
+  /// The index among Terms of the lowest node or cell of a footprint.
+  static std::size_t firstOf(const Footprint<D>& footprint) {
+    return static_cast<std::size_t>(overhang - footprint.along[0].below);
+  }
+  /// The terms of nodes or cells that footprints of known extent overlap, and 0 for the others.
+  template <int Below, int Cells>
+  [[gnu::always_inline]] static Terms widened(Extent<Below, Cells>, const std::array<Lanes, Cells + More>& terms) {
+    constexpr std::size_t first = overhang - Below;
+    Terms all;
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < width; ++k) all[k] = k >= first && k < first + terms.size() ? terms[k - first] : 0;
+    return all;
+  }
+  /// Completes a block.
+  void endBlock() {
+    for (std::size_t row = 0; row < rows; ++row) {
+      if (!isBrought_[row]) bringRest(row);
+      emptyFor_[row] = isBrought_[row] || most_ > 1 ? 0 : emptyFor_[row] + 1;
+    }
+    place_ += Lanes::count;
+    oldest_ = oldest_ + 1 == history ? 0 : oldest_ + 1;
+  }
+
+  /// The sums at a node or cell and its neighbours along the first axis, in the row that is complete.
+  Lanes readRow(std::size_t n, const Index<D>& index) const {
+    return Lanes::at(&finished_[n * length_ + static_cast<std::size_t>(index[0] - first_)]);
+  }
+
+ private:
+  /// Number of the row around a cell that contains the node or cell k of a footprint.
+  static std::size_t rowOf(const Footprint<D>& footprint, const Index<D>& k) {
+    std::size_t row = 0;
+    for (int d = D - 1; d > 0; --d) {
+      const int below = footprint.along[static_cast<std::size_t>(d)].below;
+      row = row * width + static_cast<std::size_t>(k[d] + overhang - below);
+    }
+    return row;
+  }
+  /// Adds the terms of one of several particles of each cell.
+  [[gnu::noinline]] void addMore(std::size_t row, std::size_t n, const Terms& terms) {
+    for (std::size_t k = 0; k < width; ++k) {
+      Lanes term = terms[k];
+      if (most_ > 2) {
+        data::addExactly(sums_[row][n][k], term);
+        lost_[row][n][k] += term;
+      } else {
+        sums_[row][n][k] += term;
+      }
+    }
+  }
+  /// Brings the sums over several particles of each cell or, if there are none, only what earlier blocks bring.
+  void bringRest(std::size_t row) {
+    const Way way = wayOf(row);
+    for (std::size_t n = 0; n < N; ++n) {
+      if (most_ > 1) {
+        Terms terms = sums_[row][n];
+        if (most_ > 2)
+          for (std::size_t k = 0; k < width; ++k) terms[k] += lost_[row][n][k];
+        bring(way, n, terms);
+      } else if (emptyFor_[row] < history) {
+        bring(way, n, Terms{});
+      } else {
+        pass(way, n, 0);
+      }
+    }
+  }
+
+  /// Where the terms of a row around the block go. These addresses are the same for all N sums, and found only once.
+  struct Way {
+    std::array<std::array<Lanes, width - 1>*, history> past;  ///< terms of the row in earlier blocks, the latest first
+    double *inRow = nullptr, *inPlane = nullptr, *finished;  ///< sums that wait in the row and plane, and complete ones
+    std::size_t toPairInRow = 0, toPairInPlane = 0;          ///< distances between pairs of terms of these sums
+    std::size_t along = 0, plane = 0;                        ///< which of the rows and planes around the block it is
+    std::size_t length;                                      ///< distance between the sums 0 to N - 1
+  };
+  [[gnu::always_inline]] Way wayOf(std::size_t row) {
+    Way way;
+    for (std::size_t ago = 1; ago <= history; ++ago)
+      way.past[ago - 1] = past_[(oldest_ + history - ago) % history * rows + row].data();
+    const std::size_t size = finished_.size();
+    if constexpr (D > 1) {
+      way.along = row % width;
+      way.plane = row / width;
+      way.toPairInRow = size;
+      way.inRow = &waiting_[0][(way.plane * slots + (row_[1] + way.along) % slots) * pairs * size + place_];
+    }
+    if constexpr (D > 2) {
+      way.toPairInPlane = along_ * size;
+      way.inPlane = &waiting_[1][((row_[2] + way.plane) % slots * pairs * along_ + row_[1]) * size + place_];
+    }
+    way.finished = &finished_[place_];
+    way.length = length_;
+    return way;
+  }
+
+  /// Adds up the terms of this block and of earlier ones at the same nodes, the first of which is the lowest that the
+  /// first cell of this block reaches.
+  [[gnu::always_inline]] static void bring(const Way& way, std::size_t n, const Terms& terms) {
+    static_assert(pairs == 2 || pairs == 3);
+    Lanes sum = pairOfCells<0>(way, n, terms) + pairOfCells<1>(way, n, terms);
+    if constexpr (pairs > 2) sum += pairOfCells<2>(way, n, terms);
+    for (std::size_t k = 1; k < width; ++k) way.past[history - 1][n][k - 1] = terms[k];
+    pass(way, n, sum);
+  }
+  template <std::size_t pair>
+  [[gnu::always_inline]] static Lanes pairOfCells(const Way& way, std::size_t n, const Terms& terms) {
+    constexpr std::size_t other = width - 1 - pair;
+    if constexpr (pair == other)
+      return fromCells<pair>(way, n, terms);
+    else
+      return fromCells<pair>(way, n, terms) + fromCells<other>(way, n, terms);
+  }
+  /// What cells bring to the k-th of the nodes or cells that they reach: each lane has that of the cell k before its
+  /// own.
+  template <std::size_t k>
+  [[gnu::always_inline]] static Lanes fromCells(const Way& way, std::size_t n, const Terms& terms) {
+    constexpr std::size_t back = (k + Lanes::count - 1) / Lanes::count, start = back * Lanes::count - k;
+    const auto ofBlock = [&](std::size_t ago) __attribute__((always_inline))->const Lanes& {
+      return ago == 0 ? terms[k] : way.past[ago - 1][n][k - 1];
+    };
+    if constexpr (start == 0)
+      return ofBlock(back);
+    else
+      return window<static_cast<int>(start)>(ofBlock(back), ofBlock(back - 1));
+  }
+
+  /// Adds what the visited row brings to a row around it and, if the sum over its rows is then complete, to a plane.
+  [[gnu::always_inline]] static void pass(const Way& way, std::size_t n, Lanes value) {
+    const std::size_t at = n * way.length;
+    if (D > 1 && !isComplete(way.inRow + at, way.toPairInRow, way.along, value)) return;
+    if (D > 2 && !isComplete(way.inPlane + at, way.toPairInPlane, way.plane, value)) return;
+    (value + 0).copyTo(way.finished + at);  // never -0
+  }
+  /// Adds to the sums that wait in a row or plane, the k-th that the visited one reaches; its pairs of terms are
+  /// `distance` apart. Those of the lowest one are then complete, and `value` becomes their sum.
+  [[gnu::always_inline]] static bool isComplete(double* waiting, std::size_t distance, std::size_t k, Lanes& value) {
+    if (k == 0) {
+      value += Lanes::at(waiting);
+      for (std::size_t pair = 1; pair < pairs; ++pair) value += Lanes::at(waiting + pair * distance);
+      return true;
+    }
+    double* pair = waiting + std::min(k, width - 1 - k) * distance;
+    (k < width / 2 ? Lanes::at(pair) + value : value).copyTo(pair);
+    return false;
+  }
+
+  int first_;  ///< index of the first node or cell of a row
+  std::size_t length_;
+  /// Terms of the rows in earlier blocks, in turn; not of the lowest nodes, which no later cell shares.
+  std::vector<std::array<std::array<Lanes, width - 1>, N>> past_;
+  std::vector<std::array<Terms, N>> sums_, lost_;  ///< over several particles per cell, and their rounding errors
+  std::array<bool, rows> isBrought_;               ///< whether a row of this block has been brought
+  std::array<std::size_t, rows> emptyFor_;         ///< number of blocks in which no particle has reached a row
+  std::size_t oldest_ = 0, place_ = 0;             ///< the oldest of the past blocks; place of the block in its row
+  int most_ = 0;
+  Index<D> lowest_;
+  std::array<std::size_t, D> row_{};  ///< distance of the visited row from the first one along the axes but the first
+  std::size_t along_ = 0;             ///< number of rows of a plane
+  std::array<std::vector<double>, 2> waiting_;
+  std::vector<double> finished_;
+};
+
+/// The rows of cells whose particles reach the cells of a patch or, with `more` = 1, also its nodes. Rows are counted
+/// where the grid has none, too, because sums wait for them.
+template <int D>
+struct RowsAround {
+  Box rows;    ///< each row ends behind its last block
+  int blocks;  ///< number of blocks in a row
+  Box cells;   ///< the cells whose particles are known
+
+  RowsAround(const Patch& patch, const Box& known, int more) : cells(known) {
+    constexpr int overhang = Footprint<D>::overhang;
+    rows = patch.cells().grown(overhang + more, D);
+    rows.lower[0] = known.lower[0];
+    blocks = (patch.cells().upper[0] + more + overhang - known.lower[0] + Lanes::count - 1) / Lanes::count;
+    rows.upper[0] = rows.lower[0] + blocks * Lanes::count;
+  }
+  /// Number of cells of a row whose particles are known.
+  int known(const Index<D>& row) const {
+    bool isKnown = true;
+    for (int d = 1; d < D; ++d) isKnown = isKnown && row[d] >= cells.lower[d] && row[d] < cells.upper[d];
+    return isKnown ? cells.extent(0) : 0;
+  }
+};
+
+/// Calls `visit(batch)` for batches that contain each particle once, and `finish(row)` as soon as the sums are complete
+/// in the row of nodes or cells `row`, also for some rows around the patch.
+template <int D, class T, class Visit, class Finish, class... Sums>
+[[gnu::always_inline]] inline void sumOverBoxes(const RowsAround<D>& around, const ParticleView<T>& view, Visit&& visit,
+                                                Finish&& finish, Sums&... sums) {
+  forEach<D>(around.rows.rowStarts(), [&](const Index<D>& row) {
+    (sums.beginRow(row), ...);
+    int left = around.known(row);
+    const data::ParticleRange* ranges = left > 0 ? view.set().row(row) : nullptr;
+    Index<D> cell = row;
+    for (int block = 0; block < around.blocks; ++block, cell[0] += Lanes::count, left -= Lanes::count) {
+      RangesOfCells particles(ranges, std::clamp(left, 0, Lanes::count));
+      ranges += left > Lanes::count ? Lanes::count : 0;
+      const int most = particles.most();
+      (sums.beginBlock(most), ...);
+      for (int k = 0; k < most; ++k, particles.first += 1) {
+        const auto used = __builtin_convertvector(particles.first < particles.last, Lanes::Mask);
+        visit(Batch<D>(cell, particles.first, used));
+      }
+      (sums.endBlock(), ...);
+    }
+    Index<D> complete = row;
+    for (int d = 1; d < D; ++d) complete[d] -= Footprint<D>::overhang;
+    finish(complete);
+  });
+}
+
+/// Calls `visit(part)` for the parts of a row of a box; the row may lie outside the box.
+template <int D, class Visit>
+[[gnu::always_inline]] inline void forEachPartOfRow(Box box, const Index<D>& row, Visit&& visit) {
+  for (int d = 1; d < D; ++d) {
+    if (row[d] < box.lower[d] || row[d] >= box.upper[d]) return;
+    box.lower[d] = row[d];
+    box.upper[d] = row[d] + 1;
+  }
+  forEachRowPart<D>(box, visit);
+}
+
+}  // namespace tushar::mpm::gas::conserving
