@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "components/mpm/gas/conserving/footprint.hpp"
@@ -39,27 +40,29 @@ class BoxSums {
   BoxSums(const Box& visited, int blocks)
       : first_(visited.lower[0] - overhang),
         length_(static_cast<std::size_t>(blocks * Lanes::count)),
+        size_(N * length_),
         past_(history * rows),
-        finished_(N * length_) {
+        finished_(std::make_unique_for_overwrite<double[]>(size_)) {
     for (int d = 1; d < D; ++d) lowest_[d] = visited.lower[d];
-    if constexpr (D > 1) waiting_[0].resize(rows / width * slots * pairs * finished_.size());
+    if constexpr (D > 1) waiting_[0] = std::make_unique_for_overwrite<double[]>(rows / width * slots * pairs * size_);
     if constexpr (D > 2) {
       along_ = static_cast<std::size_t>(visited.extent(1));
-      waiting_[1].resize(slots * pairs * along_ * finished_.size());
+      waiting_[1] = std::make_unique_for_overwrite<double[]>(slots * pairs * along_ * size_);
     }
   }
 
   void beginRow(const Index<D>& row) {
     for (int d = 1; d < D; ++d) row_[static_cast<std::size_t>(d)] = static_cast<std::size_t>(row[d] - lowest_[d]);
     emptyFor_.fill(history);
+    for (std::size_t k = 0; k < rows; ++k) ways_[k] = wayOf(k);
     std::fill(past_.begin(), past_.end(), typename decltype(past_)::value_type{});
     place_ = 0;
   }
   /// Begins the next block of a row; `most` is the largest number of particles in one of its cells.
   void beginBlock(int most) {
     most_ = most;
-    isBrought_.fill(false);
-    if (most > 1) sums_.assign(rows, {});
+    isReached_.fill(false);
+    if (most > 1) sums_.resize(rows);
     if (most > 2) lost_.assign(rows, {});
   }
   /// Adds terms to the sums in a row of nodes or cells, the k-th of the footprints of a batch: `terms(n)` to sum n.
@@ -67,13 +70,18 @@ class BoxSums {
   template <class TermsOf>
   [[gnu::always_inline]] void add(const Footprint<D>& footprint, const Index<D>& k, TermsOf&& terms) {
     const std::size_t row = rowOf(footprint, k);
-    if (most_ > 1) {
-      for (std::size_t n = 0; n < N; ++n) addMore(row, n, terms(n));
-    } else {
-      isBrought_[row] = true;
-      const Way way = wayOf(row);
+    const bool isFirst = !isReached_[row];
+    isReached_[row] = true;
+    if (most_ <= 1) {
+      const Way way = wayFromHere(row);
 #pragma GCC unroll 4
       for (std::size_t n = 0; n < N; ++n) bring(way, n, terms(n));
+    } else {
+      for (std::size_t n = 0; n < N; ++n)
+        if (isFirst)
+          sums_[row][n] = terms(n);
+        else
+          addMore(row, n, terms(n));
     }
   }
   /// The index among Terms of the lowest node or cell of a footprint.
@@ -92,8 +100,8 @@ class BoxSums {
   /// Completes a block.
   void endBlock() {
     for (std::size_t row = 0; row < rows; ++row) {
-      if (!isBrought_[row]) bringRest(row);
-      emptyFor_[row] = isBrought_[row] || most_ > 1 ? 0 : emptyFor_[row] + 1;
+      if (!isReached_[row] || most_ > 1) bringRest(row);
+      emptyFor_[row] = isReached_[row] ? 0 : emptyFor_[row] + 1;
     }
     place_ += Lanes::count;
     oldest_ = oldest_ + 1 == history ? 0 : oldest_ + 1;
@@ -126,48 +134,57 @@ class BoxSums {
       }
     }
   }
-  /// Brings the sums over several particles of each cell or, if there are none, only what earlier blocks bring.
+  /// Brings the sums over several particles of each cell or, where there are none, only what earlier blocks bring.
   void bringRest(std::size_t row) {
-    const Way way = wayOf(row);
-    for (std::size_t n = 0; n < N; ++n) {
-      if (most_ > 1) {
+    const Way way = wayFromHere(row);
+    if (isReached_[row]) {
+      for (std::size_t n = 0; n < N; ++n) {
         Terms terms = sums_[row][n];
         if (most_ > 2)
           for (std::size_t k = 0; k < width; ++k) terms[k] += lost_[row][n][k];
         bring(way, n, terms);
-      } else if (emptyFor_[row] < history) {
-        bring(way, n, Terms{});
-      } else {
-        pass(way, n, 0);
       }
+    } else if (emptyFor_[row] < history) {
+      for (std::size_t n = 0; n < N; ++n) bring(way, n, Terms{});
+    } else if (D == 1 || way.along == 0 || way.along >= width / 2) {  // to the others it would add 0
+      for (std::size_t n = 0; n < N; ++n) pass(way, n, 0);
     }
   }
 
   /// Where the terms of a row around the block go. These addresses are the same for all N sums, and found only once.
   struct Way {
-    std::array<std::array<Lanes, width - 1>*, history> past;  ///< terms of the row in earlier blocks, the latest first
+    std::array<std::array<Lanes, width - 1>*, history> past;  ///< terms of the row in earlier blocks, the oldest first
     double *inRow = nullptr, *inPlane = nullptr, *finished;  ///< sums that wait in the row and plane, and complete ones
     std::size_t toPairInRow = 0, toPairInPlane = 0;          ///< distances between pairs of terms of these sums
     std::size_t along = 0, plane = 0;                        ///< which of the rows and planes around the block it is
     std::size_t length;                                      ///< distance between the sums 0 to N - 1
   };
-  [[gnu::always_inline]] Way wayOf(std::size_t row) {
+  /// The way of a row from the beginning of the visited row on.
+  Way wayOf(std::size_t row) {
     Way way;
-    for (std::size_t ago = 1; ago <= history; ++ago)
-      way.past[ago - 1] = past_[(oldest_ + history - ago) % history * rows + row].data();
-    const std::size_t size = finished_.size();
+    for (std::size_t ago = 0; ago < history; ++ago) way.past[ago] = past_[ago * rows + row].data();
     if constexpr (D > 1) {
       way.along = row % width;
       way.plane = row / width;
-      way.toPairInRow = size;
-      way.inRow = &waiting_[0][(way.plane * slots + (row_[1] + way.along) % slots) * pairs * size + place_];
+      way.toPairInRow = size_;
+      way.inRow = &waiting_[0][(way.plane * slots + (row_[1] + way.along) % slots) * pairs * size_];
     }
     if constexpr (D > 2) {
-      way.toPairInPlane = along_ * size;
-      way.inPlane = &waiting_[1][((row_[2] + way.plane) % slots * pairs * along_ + row_[1]) * size + place_];
+      way.toPairInPlane = along_ * size_;
+      way.inPlane = &waiting_[1][((row_[2] + way.plane) % slots * pairs * along_ + row_[1]) * size_];
     }
-    way.finished = &finished_[place_];
+    way.finished = finished_.get();
     way.length = length_;
+    return way;
+  }
+  /// The way of a row from the block on.
+  [[gnu::always_inline]] Way wayFromHere(std::size_t row) const {
+    Way way = ways_[row];
+    if constexpr (history > 1)
+      std::rotate(way.past.begin(), way.past.begin() + static_cast<std::ptrdiff_t>(oldest_), way.past.end());
+    if (D > 1) way.inRow += place_;
+    if (D > 2) way.inPlane += place_;
+    way.finished += place_;
     return way;
   }
 
@@ -177,7 +194,7 @@ class BoxSums {
     static_assert(pairs == 2 || pairs == 3);
     Lanes sum = pairOfCells<0>(way, n, terms) + pairOfCells<1>(way, n, terms);
     if constexpr (pairs > 2) sum += pairOfCells<2>(way, n, terms);
-    for (std::size_t k = 1; k < width; ++k) way.past[history - 1][n][k - 1] = terms[k];
+    for (std::size_t k = 1; k < width; ++k) way.past[0][n][k - 1] = terms[k];
     pass(way, n, sum);
   }
   template <std::size_t pair>
@@ -194,7 +211,7 @@ class BoxSums {
   [[gnu::always_inline]] static Lanes fromCells(const Way& way, std::size_t n, const Terms& terms) {
     constexpr std::size_t back = (k + Lanes::count - 1) / Lanes::count, start = back * Lanes::count - k;
     const auto ofBlock = [&](std::size_t ago) __attribute__((always_inline))->const Lanes& {
-      return ago == 0 ? terms[k] : way.past[ago - 1][n][k - 1];
+      return ago == 0 ? terms[k] : way.past[history - ago][n][k - 1];
     };
     if constexpr (start == 0)
       return ofBlock(back);
@@ -222,20 +239,22 @@ class BoxSums {
     return false;
   }
 
-  int first_;  ///< index of the first node or cell of a row
-  std::size_t length_;
+  int first_;           ///< index of the first node or cell of a row
+  std::size_t length_;  ///< length of a row in memory
+  std::size_t size_;    ///< numbers of a row, with all sums
   /// Terms of the rows in earlier blocks, in turn; not of the lowest nodes, which no later cell shares.
   std::vector<std::array<std::array<Lanes, width - 1>, N>> past_;
   std::vector<std::array<Terms, N>> sums_, lost_;  ///< over several particles per cell, and their rounding errors
-  std::array<bool, rows> isBrought_;               ///< whether a row of this block has been brought
+  std::array<bool, rows> isReached_;               ///< whether a particle of the block has reached a row
   std::array<std::size_t, rows> emptyFor_;         ///< number of blocks in which no particle has reached a row
   std::size_t oldest_ = 0, place_ = 0;             ///< the oldest of the past blocks; place of the block in its row
   int most_ = 0;
   Index<D> lowest_;
   std::array<std::size_t, D> row_{};  ///< distance of the visited row from the first one along the axes but the first
   std::size_t along_ = 0;             ///< number of rows of a plane
-  std::array<std::vector<double>, 2> waiting_;
-  std::vector<double> finished_;
+  std::array<std::unique_ptr<double[]>, 2> waiting_;
+  std::unique_ptr<double[]> finished_;
+  std::array<Way, rows> ways_;
 };
 
 /// The rows of cells whose particles reach the cells of a patch or, with `more` = 1, also its nodes. Rows are counted

@@ -24,7 +24,8 @@ class Differences : public GridFields<D, D + 1> {
  public:
   static constexpr std::size_t total = D;
 
-  Differences(const Patch& patch, const CellView<const Tensor<D>>& gradient) : GridFields<D, D + 1>(patch.cells()) {
+  Differences(const Patch& patch, const CellView<const Tensor<D>>& gradient)
+      : GridFields<D, D + 1>(patch.cells(), false) {
     const double h = patch.level().minSpacing();
     const auto set = [&](const Index<D>& cell, const Tensor<D>& of) {
       for (int d = 0; d < D; ++d) this->at(static_cast<std::size_t>(d), cell) = h * of(d, d);

@@ -17,19 +17,29 @@ std::array<Vec<D>, Linear<D>::nodes> centreGradients(const Level& level) {
   return gradients;
 }
 
+/// The gradient at the centres of cells of a vector field; `at(nodes)` has the vectors at the nodes of a part of a row,
+/// and the lowest nodes of the cells are those of `cells`.
+template <int D, class VectorsAt>
+[[gnu::always_inline]] inline LanesTensor<D> gradientIn(const std::array<Vec<D>, Linear<D>::nodes>& gradients,
+                                                        const RowPart<D>& cells, VectorsAt&& at) {
+  return sumOverCorners<D>([&](int k) __attribute__((always_inline)) {
+    const LanesVec<D> v = at(cells + Linear<D>::node({}, k));
+    LanesTensor<D> share;
+    for (int d = 0; d < D; ++d) share.col(d) = gradients[static_cast<std::size_t>(k)][d] * v;
+    return share;
+  });
+}
+
 /// Computes dv_j/dx_k at the centre of each cell from the velocities of its nodes [1/s].
 template <int D>
 void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<D>> velocity,
                              CellView<Tensor<D>> gradient) {
   const auto gradients = centreGradients<D>(patch.level());
   forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
-    const LanesTensor<D> sum = sumOverCorners<D>([&](int k) __attribute__((always_inline)) {
-      const LanesVec<D> v = load(velocity, cells + Linear<D>::node({}, k));
-      LanesTensor<D> share;
-      for (int d = 0; d < D; ++d) share.col(d) = gradients[static_cast<std::size_t>(k)][d] * v;
-      return share;
-    });
-    store(sum, gradient, cells);
+    store(gradientIn<D>(
+              gradients,
+              cells, [&](const RowPart<D>& nodes) __attribute__((always_inline)) { return load(velocity, nodes); }),
+          gradient, cells);
   });
 }
 
@@ -70,40 +80,40 @@ void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pr
                    CellView<const double> artificial, CellView<const Tensor<D>> gradient, double dt,
                    CellView<Tensor<D>> stress);
 
-/// The force of the stresses around a node divided by the volume of a cell [Pa/m]; cells outside `stress.box()` have
-/// none.
-template <int D>
-Vec<D> forceOnNode(const Level& level, const CellView<const Tensor<D>>& stress, const Index<D>& node) {
-  return sumOverCorners<D>([&](int k) __attribute__((always_inline))->Vec<D> {
-    const Index<D> cell = node - (Linear<D>::node(node, k) - node);
-    if (!stress.box().contains(cell)) return Vec<D>::Zero();
-    return stress[cell] * centreGradient<D>(level, k);
-  });
+/// The product of a stress and the gradient of a shape function, of one cell or of one per lane.
+template <int D, class Stress>
+[[gnu::always_inline]] inline auto timesGradient(const Stress& stress, const Vec<D>& gradient) {
+  Eigen::Matrix<typename Stress::Scalar, D, 1, Eigen::DontAlign> force = gradient[0] * stress.col(0);
+  for (int d = 1; d < D; ++d) force += gradient[d] * stress.col(d);
+  return force;
 }
 
 /// Computes a_i = sum over the cells c around node i of V_c T_c grad S_i / m_i; a_i is 0 at nodes without mass, and has
-/// no component normal to symmetry planes.
+/// no component normal to symmetry planes. Cells outside `stress.box()` have no stress.
 template <int D>
 void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress, NodeView<const double> mass,
                          NodeView<Vec<D>> acceleration) {
-  const Level& level = patch.level();
-  const auto atNode = [&](const Index<D>& node) {
-    if (mass[node] > 0)
-      acceleration[node] = level.cellVolume() / mass[node] * forceOnNode<D>(level, stress, node);
-    else
-      acceleration[node].setZero();
+  const double volume = patch.level().cellVolume();
+  const auto gradients = centreGradients<D>(patch.level());
+  const auto inside = [&](const RowPart<D>& nodes) {
+    const LanesVec<D> force = sumOverCorners<D>([&](int k) __attribute__((always_inline)) {
+      const LanesTensor<D> there = load(stress, nodes + (Index<D>{} - Linear<D>::node({}, k)));
+      return timesGradient<D>(there, gradients[static_cast<std::size_t>(k)]);
+    });
+    const Lanes m = load(mass, nodes), perMass = volume / m;
+    LanesVec<D> a;
+    for (int d = 0; d < D; ++d) a[d] = select(m > 0, perMass * force[d], 0);
+    store(a, acceleration, nodes);
   };
-  if constexpr (D == 1) {
-    const double perWidth = centreGradient<D>(level, 1)[0];
-    const auto inside = [&](const RowPart<D>& nodes) {
-      const LanesTensor<D> above = load(stress, nodes), below = load(stress, nodes + Index<D>{{-1}});
-      const Lanes m = load(mass, nodes), force = above(0, 0) * -perWidth + below(0, 0) * perWidth;
-      store(LanesVec<D>(select(m > 0, level.cellVolume() / m * force, 0)), acceleration, nodes);
-    };
-    forEachNodeOf<D>(patch.nodes(), stress.box(), inside, atNode);
-  } else {
-    forEach<D>(patch.nodes(), atNode);
-  }
+  const auto atRim = [&](const Index<D>& node) {
+    const Vec<D> force = sumOverCorners<D>([&](int k) __attribute__((always_inline))->Vec<D> {
+      const Index<D> cell = node - (Linear<D>::node(node, k) - node);
+      if (!stress.box().contains(cell)) return Vec<D>::Zero();
+      return timesGradient<D>(stress[cell], gradients[static_cast<std::size_t>(k)]);
+    });
+    acceleration[node] = mass[node] > 0 ? Vec<D>(volume / mass[node] * force) : Vec<D>::Zero();
+  };
+  forEachNodeOf<D>(patch.nodes(), stress.box(), inside, atRim);
   stopAtSymmetryPlanes<D>(patch, acceleration);
 }
 
@@ -137,15 +147,23 @@ double workOnCell(const Level& level, const Tensor<D>& stress, const NodeView<co
   return -dt * level.cellVolume() * power;
 }
 
-/// Computes f_c = workOnCell / IE_c.
+/// Computes f_c = -dt V_c T_c : grad(v + dt a / 2) / IE_c, the work of the forces of computeAcceleration.
 template <int D>
 void computeWork(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress,
                  CellView<const double> internalEnergy, NodeView<const Vec<D>> velocity,
                  NodeView<const Vec<D>> acceleration, double dt, CellView<double> work) {
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double energy = internalEnergy[cell];
-    const double done = workOnCell<D>(patch.level(), stress[cell], velocity, acceleration, dt, cell);
-    work[cell] = energy > 0 ? done / energy : 0.0;
+  const auto gradients = centreGradients<D>(patch.level());
+  const double scale = -dt * patch.level().cellVolume();
+  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
+    const LanesTensor<D> gradient = gradientIn<D>(
+        gradients, cells, [&](const RowPart<D>& nodes) __attribute__((always_inline)) {
+          return LanesVec<D>(load(velocity, nodes) + (0.5 * dt) * load(acceleration, nodes));
+        });
+    const LanesTensor<D> t = load(stress, cells);
+    Lanes power = 0;
+    for (int d = 0; d < D; ++d) power += t.col(d).dot(gradient.col(d));
+    const Lanes energy = load(internalEnergy, cells);
+    store(select(energy > 0, scale * power / energy, 0), work, cells);
   });
 }
 

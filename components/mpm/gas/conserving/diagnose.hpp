@@ -8,14 +8,11 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Adds values to a Sum, in lanes that are merged at the end.
+/// A Sum in each lane.
 class LanesSum {
  public:
-  explicit LanesSum(Sum& sum) : sum_(&sum) {}
-  LanesSum(const LanesSum&) = delete;
-  LanesSum& operator=(const LanesSum&) = delete;
-  ~LanesSum() {
-    for (int lane = 0; lane < Lanes::count; ++lane) sum_->merge({value_[lane], error_[lane], rest_[lane]});
+  void mergeInto(Sum& sum) const {
+    for (int lane = 0; lane < Lanes::count; ++lane) sum.merge({value_[lane], error_[lane], rest_[lane]});
   }
   void add(Lanes x) {
     data::addExactly(value_, x);
@@ -25,23 +22,32 @@ class LanesSum {
 
  private:
   Lanes value_ = 0, error_ = 0, rest_ = 0;
-  Sum* sum_;
 };
 
 /// Computes the kinetic (including the motion about the mean), internal and total energy of all particles [J].
 template <int D>
-void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
+void sumEnergy(const Patch&, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy, Sum& kinetic,
                Sum& internal, Sum& total) {
-  LanesSum kineticSum(kinetic), internalSum(internal), totalSum(total);
-  forEachBatch<D>(patch.cells(), mass, [&](const Batch<D>& batch) {
-    const Lanes m = batch.only(load(mass, batch));
-    const Lanes moving = m * (0.5 * load(velocity, batch).squaredNorm() + load(affineEnergy, batch));
-    const Lanes warm = m * load(internalEnergy, batch);
-    kineticSum.add(moving);
-    internalSum.add(warm);
-    totalSum.add(moving + warm);
-  });
+  LanesSum moving, warm;
+  Sum ofMotion, ofHeat;
+  int p = 0;
+  for (; p + Lanes::count <= mass.owned(); p += Lanes::count) {
+    const Lanes m = Lanes::at(&mass[p]);
+    const LanesVec<D> v = matrixOf<D, 1>(unpack<D>(velocity[p].data()));
+    moving.add(m * (0.5 * v.squaredNorm() + Lanes::at(&affineEnergy[p])));
+    warm.add(m * Lanes::at(&internalEnergy[p]));
+  }
+  for (; p < mass.owned(); ++p) {
+    ofMotion.add(mass[p] * (0.5 * velocity[p].squaredNorm() + affineEnergy[p]));
+    ofHeat.add(mass[p] * internalEnergy[p]);
+  }
+  moving.mergeInto(ofMotion);
+  warm.mergeInto(ofHeat);
+  kinetic.merge(ofMotion);
+  internal.merge(ofHeat);
+  total.merge(ofMotion);
+  total.merge(ofHeat);
 }
 
 /// Cross-section of the grid, the product of its extents along the axes that the scene does not use [m^(3-D)].

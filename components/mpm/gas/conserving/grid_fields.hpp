@@ -1,25 +1,26 @@
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "components/mpm/gas/conserving/footprint.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// N fields at the nodes or cells that the particles of a box of cells may overlap, initially 0, and wide enough for
-/// any footprint, so that no index needs a bounds check. The values of a row are contiguous in memory, and those of the
+/// N fields at the nodes or cells that the particles of a box of cells may overlap, wide enough for any footprint, so
+/// that no index needs a bounds check. The values of a row are contiguous in memory, and those of the
 /// next field follow them: so the fields around a particle are in few pages of memory.
 template <int D, std::size_t N>
 class GridFields {
  public:
-  explicit GridFields(const Box& cells)
+  /// The values are 0 if `cleared`, and else those that the memory happens to contain.
+  GridFields(const Box& cells, bool cleared)
       : box_(cells.grown(Footprint<D>::most, D)), size_(static_cast<std::size_t>(box_.extent(0) + 2 * Lanes::count)) {
     std::size_t all = N * size_;
     for (std::size_t d = 1; d < D; ++d) {
       stride_[d] = static_cast<std::ptrdiff_t>(all);
       all *= static_cast<std::size_t>(box_.extent(static_cast<int>(d)));
     }
-    values_.resize(all);
+    values_ = cleared ? std::make_unique<double[]>(all) : std::make_unique_for_overwrite<double[]>(all);
   }
 
   double& at(std::size_t field, const Index<D>& index) { return values_[field * size_ + place(index)]; }
@@ -37,31 +38,18 @@ class GridFields {
   }
   /// Reads a field at a node or cell and its neighbours along the first axis.
   Lanes readRow(std::size_t field, const Index<D>& index) const { return Lanes::at(&at(field, index)); }
-  /// The address of the value of the first field at a node or cell. Each further field is size() numbers behind.
-  const double* addressOf(const Index<D>& index) const { return values_.data() + place(index); }
-  std::size_t size() const { return size_; }
-  /// How far apart in memory two nodes or cells are that differ by `by` along all axes but the first.
-  std::ptrdiff_t distance(const Index<D>& by) const {
-    std::ptrdiff_t sum = 0;
-    for (int d = 1; d < D; ++d) sum += by[d] * stride_[static_cast<std::size_t>(d)];
-    return sum;
-  }
 
- protected:
-  /// Pointer to the values of a field, for derived classes that add to them.
-  double* values(std::size_t field) { return values_.data() + field * size_; }
-  std::ptrdiff_t stride(std::size_t axis) const { return stride_[axis]; }
+ private:
   std::size_t place(const Index<D>& index) const {
     std::ptrdiff_t place = index[0] - box_.lower[0];
     for (int d = 1; d < D; ++d) place += (index[d] - box_.lower[d]) * stride_[static_cast<std::size_t>(d)];
     return static_cast<std::size_t>(place);
   }
 
- private:
   Box box_;
   std::size_t size_;                        ///< length of a row in memory
   std::array<std::ptrdiff_t, D> stride_{};  ///< along all axes but the first
-  std::vector<double> values_;
+  std::unique_ptr<double[]> values_;
 };
 
 }  // namespace tushar::mpm::gas::conserving

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "components/mpm/gas/conserving/grid_fields.hpp"
+#include <algorithm>
+#include <memory>
+
+#include "components/mpm/gas/conserving/footprint.hpp"
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 
@@ -51,42 +54,115 @@ template <int D>
   return sum;
 }
 
-/// Grid fields from which particles are updated: at nodes, v; y = v + dt a (apic) or dt a; |y|² or |dt a|²; without
-/// apic also v + faceTime dt a, beta, and beta (2 - beta) / 2; in cells, f.
+/// Grid fields from which the particles of a slab of cells are updated: a plane of cells in three dimensions, a row in
+/// two. Each slab needs few others of nodes and cells, which are computed in turn in the same memory, so that they stay
+/// in the caches of the processor. Where the patch has no values, they are 0.
+///
+/// At nodes: v; y = v + dt a (apic) or dt a; |y|² or |dt a|²; without apic also v + faceTime dt a, beta, and
+/// beta (2 - beta) / 2. In cells: f.
 template <int D, bool apic>
-struct Motion : GridFields<D, apic ? 2 * D + 2 : 3 * D + 4> {
+class Motion {
+ public:
   static constexpr std::size_t later = D, square = 2 * D, work = square + 1, moving = work + 1, beta = moving + D,
-                               slip = beta + 1;
-  using Fields = GridFields<D, apic ? 2 * D + 2 : 3 * D + 4>;
+                               slip = beta + 1, fields = apic ? 2 * D + 2 : 3 * D + 4;
 
-  bool relaxes = apic;  ///< whether any beta is not 0
-
-  Motion(const Patch& patch, const ParticleUpdate<D>& update, double dt) : Fields(patch.cells()) {
-    constexpr double faceTime = apic ? Apic::faceTime : AffineFlip::faceTime;
-    Lanes greatestBeta = 0;
-    forEachRowPart<D>(update.nodeVelocity.box(), [&](const RowPart<D>& nodes) {
-      const LanesVec<D> v = load(update.nodeVelocity, nodes), dv = dt * load(update.acceleration, nodes);
-      const LanesVec<D> y = apic ? LanesVec<D>(v + dv) : dv;
-      put(0, nodes, v);
-      put(later, nodes, y);
-      this->writeRow(square, nodes, squareOf<D>(y));
-      if constexpr (!apic) {
-        const Lanes b = load(update.relaxation, nodes);
-        greatestBeta = max(greatestBeta, b);
-        put(moving, nodes, v + faceTime * dv);
-        this->writeRow(beta, nodes, b);
-        this->writeRow(slip, nodes, 0.5 * b * (2 - b));
-      }
-    });
-    if (!apic) relaxes = any(greatestBeta > 0);
-    forEachRowPart<D>(update.work.box(),
-                      [&](const RowPart<D>& cells) { this->writeRow(work, cells, load(update.work, cells)); });
+  Motion(const Patch& patch, const ParticleUpdate<D>& update, double dt)
+      : update_(&update), dt_(dt), box_(patch.cells().grown(Footprint<D>::most, D)) {
+    length_ = static_cast<std::size_t>(box_.extent(0) + 2 * Lanes::count);
+    slab_ = fields * length_ * (D == 3 ? static_cast<std::size_t>(box_.extent(1)) : 1);
+    values_ = std::make_unique_for_overwrite<double[]>(slots * slab_);
+    for (std::size_t slot = 0; slot < slots; ++slot) clearRim(&values_[slot * slab_]);
+    next_ = patch.cells().lower[D - 1] - Footprint<D>::overhang;
   }
+
+  /// Computes the fields around the slab with this index along the last axis.
+  void moveTo(int slab) {
+    if constexpr (D == 1)
+      compute(0, update_->nodeVelocity.box(), update_->work.box());
+    else
+      for (; next_ <= slab + Footprint<D>::overhang + 1; ++next_) {
+        double* values = &values_[slotOf(next_) * slab_];
+        if (!isIn(update_->work.box(), next_)) std::fill(values, values + slab_, 0);
+        compute(slotOf(next_), slabOf(update_->nodeVelocity.box(), next_), slabOf(update_->work.box(), next_));
+      }
+  }
+  /// Whether any beta around the slab is not 0.
+  bool relaxes() const {
+    return apic || std::any_of(relaxes_.begin(), relaxes_.end(), [](bool relaxes) { return relaxes; });
+  }
+  /// The address of the first field at a node or cell of a row that moveTo has computed.
+  const double* addressOf(const Index<D>& index) const {
+    return &values_[slotOf(index[D - 1]) * slab_ + placeIn(index)];
+  }
+  std::size_t length() const { return length_; }  ///< distance between fields of a row
 
  private:
-  void put(std::size_t field, const RowPart<D>& nodes, const LanesVec<D>& values) {
-    for (std::size_t d = 0; d < D; ++d) this->writeRow(field + d, nodes, values[static_cast<int>(d)]);
+  static constexpr std::size_t slots = D == 1 ? 1 : 4;  ///< number of slabs that a slab needs
+  static_assert(D == 1 || Footprint<D>::most < 4);
+
+  std::size_t slotOf(int slab) const { return D == 1 ? 0 : static_cast<std::size_t>(slab - box_.lower[D - 1]) % slots; }
+  std::size_t placeIn(const Index<D>& index) const {
+    const std::size_t along = static_cast<std::size_t>(index[0] - box_.lower[0]);
+    return along + (D == 3 ? static_cast<std::size_t>(index[1] - box_.lower[1]) * fields * length_ : 0);
   }
+  static bool isIn(const Box& box, int slab) { return slab >= box.lower[D - 1] && slab < box.upper[D - 1]; }
+  static Box slabOf(Box box, int slab) {
+    if (!isIn(box, slab)) return {};
+    box.lower[D - 1] = slab;
+    box.upper[D - 1] = slab + 1;
+    return box;
+  }
+  /// Sets all values of a slab to 0 that compute does not set in each slab.
+  void clearRim(double* values) const {
+    const Box& cells = update_->work.box();
+    forEachRow<D>(slabOf(box_, box_.lower[D - 1]), [&](const Index<D>& row, int) {
+      bool isSet = true;
+      for (int d = 1; d < D - 1; ++d) isSet = isSet && cells.lower[d] <= row[d] && row[d] < cells.upper[d];
+      const auto place = [&](int at) { return isSet ? static_cast<std::size_t>(at - box_.lower[0]) : 0; };
+      const std::size_t lower = place(cells.lower[0]), upper = place(cells.upper[0]);
+      for (std::size_t field = 0; field < fields; ++field, values += length_) {
+        std::fill(values, values + lower, 0);
+        std::fill(values + upper, values + length_, 0);
+      }
+    });
+  }
+  void compute(std::size_t slot, const Box& ofNodes, const Box& ofCells) {
+    constexpr double faceTime = apic ? Apic::faceTime : AffineFlip::faceTime;
+    double* values = &values_[slot * slab_];
+    Lanes greatestBeta = 0;
+    forEachRowPart<D>(ofNodes, [&](const RowPart<D>& nodes) {
+      double* to = values + placeIn(nodes.first);
+      const LanesVec<D> v = load(update_->nodeVelocity, nodes), dv = dt_ * load(update_->acceleration, nodes);
+      const LanesVec<D> y = apic ? LanesVec<D>(v + dv) : dv;
+      put(to, 0, v);
+      put(to, later, y);
+      squareOf<D>(y).copyTo(to + square * length_);
+      if constexpr (!apic) {
+        const Lanes b = load(update_->relaxation, nodes);
+        greatestBeta = max(greatestBeta, b);
+        put(to, moving, v + faceTime * dv);
+        b.copyTo(to + beta * length_);
+        (0.5 * b * (2 - b)).copyTo(to + slip * length_);
+      }
+    });
+    forEachRowPart<D>(ofCells, [&](const RowPart<D>& cells) {
+      load(update_->work, cells).copyTo(values + placeIn(cells.first) + work * length_);
+    });
+    relaxes_[slot] = any(greatestBeta > 0);
+  }
+  /// Stores the components of a vector. Lanes beyond the end of a row are stored, too: behind a row is space that
+  /// nothing else uses.
+  void put(double* to, std::size_t field, const LanesVec<D>& vector) const {
+    for (std::size_t d = 0; d < D; ++d) vector[static_cast<int>(d)].copyTo(to + (field + d) * length_);
+  }
+
+  const ParticleUpdate<D>* update_;
+  double dt_;
+  Box box_;                    ///< wide enough for any footprint
+  std::size_t length_, slab_;  ///< numbers of a row and of a slab
+  int next_;                   ///< the first slab that has not been computed
+  std::array<bool, slots> relaxes_{};
+  std::unique_ptr<double[]> values_;
 };
 
 template <int D, class Scheme>
@@ -111,12 +187,18 @@ struct RowReader {
 /// Reads the grid fields near a batch.
 template <int D, class Fields>
 struct Reader {
-  const Fields& motion;
-  const double* first;
+  std::array<const double*, Footprint<D>::most + 1> slab;  ///< the first row of each slab of a footprint
+  std::size_t length;
 
-  Reader(const Fields& of, const Footprint<D>& footprint) : motion(of), first(of.addressOf(footprint.first())) {}
+  Reader(const Fields& motion, const Footprint<D>& footprint) : length(motion.length()) {
+    Index<D> first = footprint.first();
+    const int nodes = D == 1 ? 1 : footprint.along[D - 1].nodes();
+    for (int k = 0; k < nodes; ++k, ++first[D - 1]) slab[static_cast<std::size_t>(k)] = motion.addressOf(first);
+  }
   [[gnu::always_inline]] RowReader<D> row(const Index<D>& at) const {
-    return {first + motion.distance(at), motion.size()};
+    if constexpr (D == 1) return {slab[0], length};
+    const double* first = slab[static_cast<std::size_t>(at[D - 1])];
+    return {first + (D == 3 ? static_cast<std::size_t>(at[1]) * Fields::fields * length : 0), length};
   }
 };
 

@@ -1,4 +1,5 @@
 #include "components/mpm/gas/conserving/box_sums.hpp"
+#include "components/mpm/gas/conserving/grid_fields.hpp"
 #include "components/mpm/gas/conserving/redistribute.hpp"
 #include "components/mpm/particles/ids.hpp"
 
@@ -250,7 +251,7 @@ template <int D>
 void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> mass, CellView<const double> energy,
            ParticleMaker& maker, const NewBoxes<D>& fresh) {
   const Level& level = patch.level();
-  Contents<D> contents(old.x.cells());
+  Contents<D> contents(old.x.cells(), true);
   contents.copy(0, mass);
   contents.copy(1, energy);
   const CellsOf<D> grid(level);

@@ -116,13 +116,12 @@ struct Span {
   /// Sum over the cells, in the mirror-symmetric order of sumOverNodes; the term of the centre's cell is added last.
   template <class Add>
   [[gnu::always_inline]] Lanes sumOverCells(Add&& add) const {
-    std::array<Lanes, 2> sides{0, 0};
-    for (int n = 0; n < cells; ++n) {
-      const bool isMiddle = n == cells - 1;
-      if (isMiddle) sides[0] += sides[1];
-      add(isMiddle ? below : n < below ? below - 1 - n : n + 1, sides[!isMiddle && n >= below]);
-    }
-    return sides[0];
+    Lanes lowerSide = 0, upperSide = 0;
+    for (int k = below - 1; k >= 0; --k) add(k, lowerSide);
+    for (int k = below + 1; k < cells; ++k) add(k, upperSide);
+    lowerSide += upperSide;
+    add(below, lowerSide);
+    return lowerSide;
   }
   /// The same for an axis of known extent.
   template <int Below, int Cells, class Add>

@@ -224,12 +224,49 @@ template <int D>
   }
 }
 
+/// (E1) and (E2) of updateParticles: the new velocities of a batch.
+template <int D, class Scheme>
+struct NewVelocity {
+  LanesVec<D> mean;
+  LanesModes<D> modes;
+  Lanes affine;    ///< the new K_A
+  Lanes rest = 0;  ///< kinetic energy about the mean that is not part of it
+
+  /// `v` and `u` are the old mean and modes.
+  [[gnu::always_inline]] NewVelocity(const Footprint<D>& footprint, const Gathered<D, Scheme, D - 1>& taken,
+                                     const LanesVec<D>& v, const LanesModes<D>& u) {
+    const LanesVec<D> gain = taken.moments[0];
+    if constexpr (Scheme::transfer == Transfer::apic) {
+      for (int d = 0; d < D; ++d) mean[d] = gain[d] + 0;  // never -0
+      modes = LanesModes<D>::Zero();
+      for (std::size_t d = 0; d < D; ++d)
+        for (std::size_t part = 0; part < D; ++part)
+          modes(static_cast<int>(part), gradientColumn(static_cast<int>(d))) =
+              ((taken.upper[d][part] + 0) - (taken.lower[d][part] + 0)) / footprint.along[d].length();
+      affine = max(0.0, 0.5 * (taken.square - mean.squaredNorm()));
+    } else {
+      mean = v + gain;
+      const LanesVec<D> inertia = footprint.inertia();
+      const auto inverse = productsOver(LanesVec<D>(inertia.cwiseInverse()));
+      Lanes all = taken.square - squareOf<D>(gain);
+      for (std::size_t a = 1; a < taken.moments.size(); ++a) {
+        all -= inverse[a] * squareOf<D>(taken.moments[a]);
+        for (int d = 0; d < D; ++d) {
+          const int column = static_cast<int>(a) - 1;
+          modes(d, column) = multiplyAdd(inverse[a], taken.moments[a][d], u(d, column)) + 0;
+        }
+      }
+      affine = modalEnergy<D>(modes, inertia);
+      rest = max(0.0, 0.5 * all);
+    }
+  }
+};
+
 /// Updates the particles of a batch.
 template <int D, class Scheme>
 [[gnu::always_inline]] inline void updateBatch(const Level& level, const Batch<D>& batch, const Footprint<D>& footprint,
                                                const MotionOf<D, Scheme>& motion, const ParticleUpdate<D>& update,
                                                double dt, Minimum& factor) {
-  constexpr bool apic = Scheme::transfer == Transfer::apic;
   const LanesModes<D> u = load(update.modes, batch);
   const LanesVec<D> v = load(update.velocity, batch);
   const Reader<D, MotionOf<D, Scheme>> read(motion, footprint);
@@ -240,10 +277,7 @@ template <int D, class Scheme>
     gatherFromNodes<D, Scheme, D - 1>(extent, footprint, at, read, fieldOf<D>(v, u), taken);
     done = workOn(extent, footprint, read);
   });
-  const LanesVec<D> inertia = footprint.inertia();
-  LanesModes<D> fresh;
-  LanesVec<D> mean, centre, size;
-  for (int d = 0; d < D; ++d) mean[d] = (apic ? Lanes(0) : v[d]) + taken.moments[0][d];  // never -0
+  LanesVec<D> centre, size;
   for (std::size_t d = 0; d < D; ++d) {
     const auto& span = footprint.along[d];
     const int axis = static_cast<int>(d);
@@ -253,48 +287,26 @@ template <int D, class Scheme>
     size[axis] = upper - lower;
     limitEdges(batch, span.length(), size[axis], Footprint<D>::longest * level.spacing(axis), factor);
   }
-  Lanes affine, rest;  // kinetic energy about the mean that the modes contain, and that they do not
-  if constexpr (apic) {
-    fresh = LanesModes<D>::Zero();
-    for (std::size_t d = 0; d < D; ++d)
-      for (std::size_t part = 0; part < D; ++part)
-        fresh(static_cast<int>(part), gradientColumn(static_cast<int>(d))) =
-            ((taken.upper[d][part] + 0) - (taken.lower[d][part] + 0)) / footprint.along[d].length();
-    affine = max(0.0, 0.5 * (taken.square - mean.squaredNorm()));
-    rest = 0;
-  } else {
-    const auto products = productsOver(inertia);
-    rest = taken.square - squareOf<D>(taken.moments[0]);
-    for (std::size_t a = 1; a < taken.moments.size(); ++a) {
-      const Lanes inverse = 1 / products[a];
-      rest -= inverse * squareOf<D>(taken.moments[a]);
-      for (int d = 0; d < D; ++d) {
-        const int column = static_cast<int>(a) - 1;
-        fresh(d, column) = multiplyAdd(inverse, taken.moments[a][d], u(d, column)) + 0;
-      }
-    }
-    affine = modalEnergy<D>(fresh, inertia);
-    rest = max(0.0, 0.5 * rest);
-  }
+  const NewVelocity<D, Scheme> fresh(footprint, taken, v, u);
+  const Lanes energy = load(update.internalEnergy, batch) * (1 + done) + load(update.affineEnergy, batch) -
+                       modalEnergy<D>(u, footprint.inertia()) + taken.slipEnergy() + fresh.rest;
+  limitCooling(batch, done, energy, factor);
   store(centre, update.newX, batch);
   store(size, update.newEdges, batch);
-  store(mean, update.newVelocity, batch);
-  store(fresh, update.newModes, batch);
-  store(affine, update.newAffineEnergy, batch);
-  const Lanes energy = load(update.internalEnergy, batch) * (1 + done) + load(update.affineEnergy, batch) -
-                       modalEnergy<D>(u, inertia) + taken.slipEnergy() + rest;
-  limitCooling(batch, done, energy, factor);
+  store(fresh.mean, update.newVelocity, batch);
+  store(fresh.modes, update.newModes, batch);
+  store(fresh.affine, update.newAffineEnergy, batch);
   store(energy, update.newInternalEnergy, batch);
 }
 
+/// Updates the particles of the cells in a box.
 template <int D, class Scheme>
-void updateAll(const Patch& patch, const ParticleUpdate<D>& update, const MotionOf<D, Scheme>& motion, double dt,
-               Minimum& factor) {
-  const CellsOf<D> grid(patch.level());
+void updateAll(const Box& cells, const CellsOf<D>& grid, const Level& level, const ParticleUpdate<D>& update,
+               const MotionOf<D, Scheme>& motion, double dt, Minimum& factor) {
   forEachBatch<D>(
-      patch.cells(), update.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
+      cells, update.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
         const Footprint<D> footprint(grid, batch, load(update.x, batch), load(update.edges, batch));
-        updateBatch<D, Scheme>(patch.level(), batch, footprint, motion, update, dt, factor);
+        updateBatch<D, Scheme>(level, batch, footprint, motion, update, dt, factor);
       });
 }
 
@@ -311,10 +323,23 @@ void updateAll(const Patch& patch, const ParticleUpdate<D>& update, const Motion
 /// v + dt a / 2 (apic: v + dt a). A step that limitEdges or limitCooling refuses is repeated with `factor` times dt.
 template <int D, class Scheme>
 void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& update, double dt, Minimum& factor) {
-  const MotionOf<D, Scheme> motion(patch, update, dt);
-  if constexpr (Scheme::transfer == Transfer::affineFlip)
-    if (!motion.relaxes) return updateAll<D, Smooth<Scheme>>(patch, update, motion, dt, factor);
-  updateAll<D, Scheme>(patch, update, motion, dt, factor);
+  const CellsOf<D> grid(patch.level());
+  MotionOf<D, Scheme> motion(patch, update, dt);
+  Box slab = patch.cells();
+  const int first = slab.lower[D - 1], last = D == 1 ? first : slab.upper[D - 1] - 1;
+  for (int at = first; at <= last; ++at) {
+    motion.moveTo(at);
+    if constexpr (D > 1) {
+      slab.lower[D - 1] = at;
+      slab.upper[D - 1] = at + 1;
+    }
+    if constexpr (Scheme::transfer == Transfer::affineFlip)
+      if (!motion.relaxes()) {
+        updateAll<D, Smooth<Scheme>>(slab, grid, patch.level(), update, motion, dt, factor);
+        continue;
+      }
+    updateAll<D, Scheme>(slab, grid, patch.level(), update, motion, dt, factor);
+  }
 }
 
 // In update_particles.cpp, so that the kernels are compiled beside the other tasks.
