@@ -113,6 +113,14 @@ class BoxSums {
   }
 
  private:
+  /// Where the terms of a row around the block go. These addresses are the same for all N sums, and found only once.
+  struct Way {
+    std::array<std::array<Lanes, width - 1>*, history> past;  ///< terms of the row in earlier blocks, the oldest first
+    double *inRow = nullptr, *inPlane = nullptr, *finished;  ///< sums that wait in the row and plane, and complete ones
+    std::size_t toPairInRow = 0, toPairInPlane = 0;          ///< distances between pairs of terms of these sums
+    std::size_t along = 0, plane = 0;                        ///< which of the rows and planes around the block it is
+    std::size_t length;                                      ///< distance between the sums 0 to N - 1
+  };
   /// Number of the row around a cell that contains the node or cell k of a footprint.
   static std::size_t rowOf(const Footprint<D>& footprint, const Index<D>& k) {
     std::size_t row = 0;
@@ -136,29 +144,29 @@ class BoxSums {
   }
   /// Brings the sums over several particles of each cell or, where there are none, only what earlier blocks bring.
   void bringRest(std::size_t row) {
+    const bool isEmpty = !isReached_[row] && emptyFor_[row] >= history;
+    if (D > 1 && isEmpty && ways_[row].along > 0) return bringNothing(ways_[row]);
     const Way way = wayFromHere(row);
-    if (isReached_[row]) {
-      for (std::size_t n = 0; n < N; ++n) {
+    for (std::size_t n = 0; n < N; ++n) {
+      if (isEmpty) {
+        pass(way, n, 0);
+      } else if (!isReached_[row]) {
+        bring(way, n, Terms{});
+      } else {
         Terms terms = sums_[row][n];
         if (most_ > 2)
           for (std::size_t k = 0; k < width; ++k) terms[k] += lost_[row][n][k];
         bring(way, n, terms);
       }
-    } else if (emptyFor_[row] < history) {
-      for (std::size_t n = 0; n < N; ++n) bring(way, n, Terms{});
-    } else if (D == 1 || way.along == 0 || way.along >= width / 2) {  // to the others it would add 0
-      for (std::size_t n = 0; n < N; ++n) pass(way, n, 0);
     }
   }
+  /// Begins the sums that wait in a row with 0, if the visited row is the first that reaches it.
+  void bringNothing(const Way& way) {
+    if (way.along < width / 2) return;
+    double* first = way.inRow + (width - 1 - way.along) * way.toPairInRow + place_;
+    for (std::size_t n = 0; n < N; ++n) Lanes(0).copyTo(first + n * way.length);
+  }
 
-  /// Where the terms of a row around the block go. These addresses are the same for all N sums, and found only once.
-  struct Way {
-    std::array<std::array<Lanes, width - 1>*, history> past;  ///< terms of the row in earlier blocks, the oldest first
-    double *inRow = nullptr, *inPlane = nullptr, *finished;  ///< sums that wait in the row and plane, and complete ones
-    std::size_t toPairInRow = 0, toPairInPlane = 0;          ///< distances between pairs of terms of these sums
-    std::size_t along = 0, plane = 0;                        ///< which of the rows and planes around the block it is
-    std::size_t length;                                      ///< distance between the sums 0 to N - 1
-  };
   /// The way of a row from the beginning of the visited row on.
   Way wayOf(std::size_t row) {
     Way way;

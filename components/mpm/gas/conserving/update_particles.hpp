@@ -168,21 +168,20 @@ template <int D, class Scheme, int Axis, class Row>
   if constexpr (Axis == 0) {
     gatherFromRow<D, Scheme>(extent, span, read.row(at), field, sum);
   } else {
-    const auto gatherSide = [&](int from, int step, int end, Gathered<D, Scheme, Axis>& side)
-        __attribute__((always_inline)) {
-      side = Gathered<D, Scheme, Axis>::zero();
-      for (at[Axis] = from; at[Axis] != end; at[Axis] += step) {
+    std::array<Gathered<D, Scheme, Axis>, 2> sides;
+    for (const int side : {0, 1}) {  // a loop, because the code would be twice as long without
+      Gathered<D, Scheme, Axis> onSide = Gathered<D, Scheme, Axis>::zero();
+      for (at[Axis] = span.below + side; at[Axis] >= 0 && at[Axis] < span.nodes(); at[Axis] += 2 * side - 1) {
         const std::size_t k = static_cast<std::size_t>(at[Axis]);
         Gathered<D, Scheme, Axis - 1> slice;
         gatherFromNodes<D, Scheme, Axis - 1>(extent, footprint, at, read,
                                              Footprint<D>::template slice<Axis>(field, span.arm[k]), slice);
-        addSlice<D, Scheme, Axis>(span, k, slice, side);
+        addSlice<D, Scheme, Axis>(span, k, slice, onSide);
       }
-    };
-    Gathered<D, Scheme, Axis> side;
-    gatherSide(span.below, -1, -1, sum);
-    gatherSide(span.below + 1, 1, span.nodes(), side);
-    addSide<D, Scheme, Axis>(side, sum);
+      sides[static_cast<std::size_t>(side)] = onSide;
+    }
+    sum = sides[0];
+    addSide<D, Scheme, Axis>(sides[1], sum);
   }
 }
 
