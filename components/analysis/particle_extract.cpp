@@ -75,6 +75,7 @@ class ParticleExtract : public Analysis {
  public:
   explicit ParticleExtract(ExtractSettings settings) : settings_(std::move(settings)), times_(settings_) {}
 
+  bool takesSeveralBoxes() const override { return true; }
   void schedule(tasks::TaskList&) const override {}
   void setTime(double time, double sinceStart) override {
     time_ = time;

@@ -144,6 +144,7 @@ output::GridInfo gridInfo(const grid::Level& level) {
     info.cells[level.axis(d)] = level.cells().extent(d);
     info.spacing[level.axis(d)] = level.spacing(d);
   }
+  for (const grid::Box& box : level.domain().boxes) info.inside.push_back({0, box.lower, box.upper});
   return info;
 }
 

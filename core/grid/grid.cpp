@@ -19,6 +19,7 @@ MortonCurve::Cuts cutsOf(const Level& level) {
     along.clear();
     for (int part = 0; part <= parts; ++part)
       along.push_back(static_cast<int>(static_cast<long>(cells) * part / parts));
+    if (level.boxes()) along = level.boxes()->allowedCuts(d, along);
   }
   return cuts;
 }

@@ -11,6 +11,21 @@ Level::Level(const Domain& domain, int number, int levels, const Grid* grid)
   chooseAxes();
   for (int d = 0; d < dimension(); ++d) domain_.resolution[axis(d)] <<= number;
   measure();
+  if (!domain_.boxes.empty()) takeBoxes();
+}
+
+/// Takes the boxes of the domain, along the kernel axes.
+void Level::takeBoxes() {
+  std::vector<Box> boxes;
+  for (const Box& given : domain_.boxes) {
+    Box box{{}, Index3::filled(1)};
+    for (int d = 0; d < dimension(); ++d) {
+      box.lower[d] = given.lower[axis(d)];
+      box.upper[d] = given.upper[axis(d)];
+    }
+    boxes.push_back(box);
+  }
+  boxes_ = std::make_unique<const SeveralBoxes>(std::move(boxes), cells_, dimension(), domain_.nodesBeyond);
 }
 
 void Level::chooseAxes() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/grid/boundary.hpp"
 #include "core/grid/box.hpp"
 #include "core/grid/refinement.hpp"
+#include "core/grid/several_boxes.hpp"
 
 namespace tushar::grid {
 
@@ -24,6 +26,7 @@ struct Domain {
   Vec3 lower = Vec3::Zero();
   Vec3 upper = Vec3::Ones();
   Index3 resolution{{1, 1, 1}};  ///< number of cells along x, y, z
+  std::vector<Box> boxes;        ///< several boxes of these cells along x, y, z, if the grid has no others
   Index3 patches{{1, 1, 1}};     ///< number of patches along x, y, z
   bool mayRecut = false;         ///< whether the cuts between patches may follow the particles (see Grid::recut)
   Index3 periodic{};             ///< 1 for periodic axes, otherwise 0
@@ -41,6 +44,8 @@ struct Domain {
 /// Along a periodic axis, cell and node indices continue beyond both ends: outside the grid they refer to images of the
 /// cells inside, and to ghosts of the patches there. The first and the last node of the grid are the same point; the
 /// patches at both ends complete its values.
+///
+/// A level may consist of several boxes: then some of `cells()` are outside (see SeveralBoxes).
 class Level {
  public:
   explicit Level(const Domain& domain) : Level(domain, 0, 1, nullptr) {}
@@ -62,6 +67,20 @@ class Level {
 
   /// All cells of the grid on this level; the lower corner is always 0.
   const Box& cells() const { return cells_; }
+  /// The boxes of which this level consists; null if it is one box.
+  const SeveralBoxes* boxes() const { return boxes_.get(); }
+  /// Whether a cell is one of `cells()` and, if the level consists of several boxes, in one of these.
+  template <int D>
+  bool isInside(const Index<D>& cell) const {
+    return cells_.contains(cell) && (!boxes_ || boxes_->contains(wide(cell)));
+  }
+  /// Whether a node belongs to a cell that is inside.
+  template <int D>
+  bool isNodeInside(const Index<D>& node) const {
+    return nodesOfCells().contains(node) && (!boxes_ || boxes_->isNode(wide(node)));
+  }
+  /// Number of cells that are inside.
+  std::uint64_t cellsInside() const { return boxes_ ? boxes_->size() : cells_.size(); }
   /// All nodes, including those outside the grid.
   Box nodes() const;
   /// The nodes of the grid's cells.
@@ -200,9 +219,16 @@ class Level {
   const BoundaryCondition* condition(int kernelAxis, int side, const BoundaryVariable& variable, int material,
                                      int part) const;
   int partOf(int kernelAxis, int side, const Vec3& x) const;
+  template <int D>
+  static Index3 wide(const Index<D>& index) {
+    Index3 wide;
+    for (int d = 0; d < D; ++d) wide[d] = index[d];
+    return wide;
+  }
   void chooseAxes();
   Box clip(const Box& box, const Box& grid) const;
   void measure();
+  void takeBoxes();
 
   int number_ = 0, halvings_ = 0;  ///< index of this level, and the number of halvings from here to the finest level
   const Grid* grid_ = nullptr;
@@ -212,6 +238,7 @@ class Level {
   double cellVolume_ = 1;
   bool is_periodic_ = false;
   Box cells_;
+  std::unique_ptr<const SeveralBoxes> boxes_;
 };
 
 /// The conditions for one variable at both sides of each kernel axis, looked up once; see Level::sides.

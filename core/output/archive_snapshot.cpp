@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/output/archive_files.hpp"
+#include "core/output/inside_boxes.hpp"
 #include "core/output/pieces.hpp"
 #include "core/output/shared_hdf5.hpp"
 
@@ -77,6 +78,7 @@ std::vector<Dataset> datasetsOf(const Snapshot& snapshot) {
 void writeFirst(Hdf5File& out, const Snapshot& snapshot, const std::string& version) {
   writeHeader(out, snapshot, version);
   if (!snapshot.grid.boxes.empty()) writeBoxes(out, snapshot.grid);
+  writeInside(out, snapshot.grid);
   for (const ParticleBlock& block : snapshot.particles) writeGroup(out, block);
 }
 

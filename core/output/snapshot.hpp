@@ -70,6 +70,8 @@ struct GridInfo {
   /// otherwise none.
   std::vector<GridBox> boxes{};
   int levels = 1;  ///< number of levels: at least one more than the index of the finest level of any box
+  /// If a single level consists of several boxes: these. Values of cells and nodes outside them are 0.
+  std::vector<GridBox> inside{};
 };
 
 /// The state at one time, gathered from all patches in an order that does not depend on the layout.

@@ -159,6 +159,9 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   for (const ReadModule& module : modules) {
     try {
       analyses.push_back(module.make(component, level));
+      if (level.boxes() && !analyses.back()->takesSeveralBoxes())
+        throw InputError(
+            {{module.element.where(), module.element.path(), "needs a grid of one box: the first Level has several"}});
       refuseTwice(*analyses.back(), module.element, taken);
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
@@ -209,6 +212,14 @@ Location checkTakesLevels(const ComponentKind& kind, const Component& component,
   if (const std::string why = component.whyOneLevel(); !why.empty())
     diagnostics.error(where, fmt::format("'{}' needs a grid of one level: {}", kind.name, why));
   return where.where();
+}
+
+/// Refuses a level of several boxes if the component cannot run on it.
+void checkTakesBoxes(const ComponentKind& kind, const Component& component, const Element& grid,
+                     Diagnostics& diagnostics) {
+  if (const std::string why = component.whyOneBox(); !why.empty())
+    diagnostics.error(grid.children("Level").front().children("Box")[1],
+                      fmt::format("'{}' needs a grid of one box: {}", kind.name, why));
 }
 
 /// A component constructed on a minimal grid that it accepts, with one axis if possible.
@@ -340,6 +351,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.component = makeComponent(problem.grid->finest());
   if (domain.refinement.levels > 1)
     amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);
+  if (!domain.boxes.empty()) checkTakesBoxes(*kind, *problem.component, *root.child("Grid"), diagnostics);
   problem.smallerSteps = smallerStepsOn(*problem.grid, amr, diagnostics);
   problem.regrid = settled(std::move(amr), *problem.component, diagnostics);
   problem.regrid.adaptive = problem.regrid.adaptive && problem.grid->levels() > 1;

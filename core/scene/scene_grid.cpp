@@ -6,6 +6,7 @@
 
 #include "core/grid/choose_patches.hpp"
 #include "core/input/schema.hpp"
+#include "core/scene/scene_boxes.hpp"
 #include "core/scene/scene_levels.hpp"
 #include "core/scene/scene_sides.hpp"
 
@@ -134,26 +135,22 @@ grid::Domain readGrid(const Element& section, const SideWords& words, const grid
   const GridSection read = gridSchema(words.own.sections).read(section, diagnostics);
   const std::vector<GivenPart> parts = readFaces(section, read.boundaries, words, domain.boundaries, diagnostics);
   if (diagnostics.size() > before) return domain;
-  const std::vector<Element> boxes = section.children("Level").front().children("Box");
-  if (boxes.size() > 1)
-    diagnostics.error(boxes[1],
-                      fmt::format("the first Level can have only one Box; this is a second one (the first is at {})",
-                                  boxes[0].where().text()));
+  const Element first = section.children("Level").front();
+  const std::vector<Element> boxes = first.children("Box");
   const LevelSection& level = read.levels.front();
-  const GridBox& box = level.boxes.front();
-  domain.lower = box.lower;
-  domain.upper = box.upper;
-  domain.resolution = resolutionOf(box, level, boxes.front(), diagnostics);
+  readBoxes(first, level, domain, diagnostics);
   domain.periodic = level.periodic;
   dropPeriodicSides(section, domain, diagnostics);
   checkSize(domain, boxes.front(), diagnostics);
   if (diagnostics.size() == before) readRefinement(section, read.levels, amr, domain, diagnostics);
+  if (domain.refinement.levels > 1 && !domain.boxes.empty())
+    diagnostics.error(boxes[1], "a grid of several levels needs one Box in its first Level");
   if (diagnostics.size() == before) checkParts(parts, domain, diagnostics);
   if (diagnostics.size() > before) return domain;
   if (domain.refinement.levels > 1)
     groupBlocks(section, workers, domain, diagnostics);
   else
-    cutIntoPatches(box, workers, boxes.front(), domain, diagnostics);
+    cutIntoPatches(patchesOfBoxes(first, level, diagnostics), workers, boxes.front(), domain, diagnostics);
   return domain;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 const Schema<GridBox>& boxSchema() {
   static const Schema<GridBox> schema =
-      Schema<GridBox>("Box", "The box that is divided into cells.")
+      Schema<GridBox>("Box", "A box that is divided into cells.")
           .attributeValue("label", &GridBox::label, "", "1", "name")
           .required("lower", &GridBox::lower, "m", "lower corner")
           .required("upper", &GridBox::upper, "m", "upper corner")
@@ -50,8 +50,11 @@ const Schema<LevelSection>& levelSchema() {
       Schema<LevelSection>(
           "Level", "Cells of one size: the whole grid or, for a further Level, boxes in which no cell is wider.")
           .list("Box", &LevelSection::boxes, boxSchema(),
-                "the box that is divided into cells; further Levels may have any number of boxes, each enlarged to "
-                "whole blocks (see AMR/Regridder/min_patch_size)",
+                "the box that is divided into cells. For solids with explicit steps, the first Level may have several "
+                "boxes, with cells of one size, which share faces of cells: the grid has no cells but theirs, and "
+                "conditions of a side hold wherever the grid ends in its direction. Several boxes that fill a box are "
+                "as this box. Further Levels may have any number of boxes, each enlarged to whole blocks (see "
+                "AMR/Regridder/min_patch_size)",
                 1)
           .optional("spacing", &LevelSection::spacing, "m",
                     "cell widths along x, y, z, instead of the resolution of the Box", input::positive())

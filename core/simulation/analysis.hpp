@@ -36,6 +36,8 @@ struct OwnFile {
 class Analysis {
  public:
   virtual ~Analysis() = default;
+  /// Whether the module can run on a level of several boxes, in which cells and nodes outside the boxes hold nothing.
+  virtual bool takesSeveralBoxes() const { return false; }
   /// Adds diagnostic tasks. They read the current state as the old one.
   virtual void schedule(tasks::TaskList& tasks) const = 0;
   /// Sets the time of the state [s] and the time since the start [s]. Called before the tasks run.

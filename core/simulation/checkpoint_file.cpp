@@ -5,6 +5,7 @@
 #include "core/collect/gather.hpp"
 #include "core/collect/stored_state.hpp"
 #include "core/output/archive_files.hpp"
+#include "core/output/inside_boxes.hpp"
 
 namespace tushar::simulation {
 
@@ -56,7 +57,8 @@ void readTree(const output::Hdf5Input& file, RunState& run) {
 
 bool isSameGrid(const output::Hdf5Input& file, const output::GridInfo& grid) {
   return file.vector("/grid", "lower") == grid.lower && file.vector("/grid", "spacing") == grid.spacing &&
-         file.index("/grid", "cells") == grid.cells && file.integer("/grid", "dimension") == grid.dimension;
+         file.index("/grid", "cells") == grid.cells && file.integer("/grid", "dimension") == grid.dimension &&
+         output::hasSameInside(file, grid);
 }
 
 void checkScene(const output::Hdf5Input& file, const Problem& problem) {
@@ -94,6 +96,7 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
   file.attribute("/", "version", std::string(TUSHAR_VERSION));
   file.attribute("/", "component", run.problem.componentName);
   writeGrid(file, collect::gridInfo(run.problem.grid->level()));
+  output::writeInside(file, collect::gridInfo(run.problem.grid->level()));
   writeTree(file, *run.problem.grid);
   file.text("/scene", run.problem.inputXml);
   file.text("/archive/index", padded(target.point.index));

@@ -41,6 +41,9 @@ class Component {
   /// The reason why this component cannot run on several levels in this scene, although its kind can; empty if it can.
   /// Messages put `needs a grid of one level:` in front of it.
   virtual std::string whyOneLevel() const { return ""; }
+  /// The reason why this component cannot run on a level of several boxes in this scene; empty if it can. Messages put
+  /// `needs a grid of one box:` in front of it.
+  virtual std::string whyOneBox() const { return "it takes the cells between the boxes for cells of the grid"; }
   /// Criteria for refinement, used if the scene refines the grid without giving criteria.
   virtual std::vector<Criterion> criteria() const { return {}; }
   /// Adds tasks that mark cells to be refined, from the old state and diagnostics: `perPatch` tasks with `marks()`.

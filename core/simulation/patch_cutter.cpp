@@ -143,6 +143,8 @@ void PatchCutter::cut() {
   const Index3 parts = grid::choosePatches(extent, patchesPerWorker * workers());
   Cuts cuts;
   for (int d = 0; d < 3; ++d) cuts[d] = evenCuts(work[d], parts[d]);
+  if (const grid::SeveralBoxes* boxes = run_.problem.grid->level().boxes())
+    for (int d = 0; d < run_.problem.grid->dimension(); ++d) cuts[d] = boxes->allowedCuts(d, cuts[d]);
   if (load(ofCell, cuts) > worthwhile * now) return;
   const trace::Span span(trace::Kind::message, "cut the grid elsewhere");
   run_.warehouse.releaseFreeMemory();  // of a step, which the copies of all values need now

@@ -49,7 +49,7 @@ void RunReport::noteStep(const std::vector<int>& stepsOfLevels) {
     for (ReportedSoFar& one : run_.reportedSoFar) one.isKnown = false;
   } else {
     run_.addStepToReported();
-    updates_ += static_cast<double>(run_.problem.grid->cellCount());
+    updates_ += static_cast<double>(run_.problem.grid->level().cellsInside());
     uniform_updates_ += static_cast<double>(run_.problem.grid->finest().cells().size());
   }
   for (int material = 0; material < run_.materials(); ++material)
@@ -102,7 +102,8 @@ void RunReport::addLayout(Report& report) {
   report.ranks = run_.ranks.size();
   report.threads = run_.scheduler.threads().count();
   report.spacing = problem.grid->finest().minSpacing();
-  report.cells = static_cast<long>(problem.grid->cellCount());
+  report.cells =
+      static_cast<long>(problem.grid->levels() > 1 ? problem.grid->cellCount() : problem.grid->level().cellsInside());
   report.updates = updates_;
   report.uniformUpdates = uniform_updates_;
   report.levels = cellsOfLevels();

@@ -6,6 +6,7 @@
 
 #include "core/base/lanes.hpp"
 #include "core/data/vanished.hpp"
+#include "core/grid/passed_sides.hpp"
 #include "core/tasks/broken_value.hpp"
 #include "core/tasks/outcome.hpp"
 
@@ -68,10 +69,13 @@ void wrap(const grid::Level& level, Vec<D>& x) {
   }
 }
 
-/// Whether a particle may leave the grid towards `cell`: only through a free face.
+/// Whether a particle may leave the grid from a cell towards the cell `cell`: only through free faces.
 template <int D>
-bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
+bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& from, const Index<D>& cell) {
   bool may = true;
+  if (level.boxes())
+    for (const auto& passed : grid::passedSides<D>(level, from, cell))
+      may = may && !level.isSymmetry(passed.axis, passed.side);
   for (int d = 0; d < D; ++d) {
     const bool below = cell[d] < 0, above = cell[d] >= level.cells().upper[d];
     may = may && std::isfinite(x[d]) && !(below && level.isSymmetry(d, 0)) && !(above && level.isSymmetry(d, 1));
@@ -192,6 +196,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
       if (isInside<D>(x[p], bounds.lower, bounds.upper)) continue;
       Index<D> to;
       for (int d = 0; d < D; ++d) to[d] = cellNear(level, d, cell[d], bounds.lower[d], bounds.upper[d], x[p][d]);
+      if (level.boxes()) to = grid::withUpperSides<D>(level, cell, x[p], to);
       if (to == cell) continue;
       moves.departed.push_back(p);
       move<D>(patch, {cell, to}, x[p], ids[p], moves);
@@ -228,10 +233,10 @@ void Relocation::move(const Patch& from, const Step<D>& step, Vec<D>& x, Particl
     wrap<D>(level, x);
     cell = level.cellOf<D>(x);
   }
-  if (!level.cells().contains(cell)) {
+  if (!level.isInside<D>(cell)) {
     ++moves.losing.left;
     const Escape escape{level.cellNumber<D>(step.from), id, from.id(), place};
-    if (!mayLeave<D>(level, x, cell) && (!moves.escape || escape < *moves.escape)) moves.escape = escape;
+    if (!mayLeave<D>(level, x, step.from, cell) && (!moves.escape || escape < *moves.escape)) moves.escape = escape;
     return;
   }
   const Index3 wide = widened(cell);
@@ -300,7 +305,7 @@ NumericalError Relocation::refusal(int position, const Escape& escape) const {
     return reinterpret_cast<const Vec<D>*>(x.values)[escape.place];
   };
   const Vec<D> x = at(Generation::fresh);
-  if (const Index<D> cell = level.cellOf<D>(x); level.cells().contains(cell))
+  if (const Index<D> cell = level.cellOf<D>(x); level.isInside<D>(cell))
     return {fmt::format("particle {} came within {} of coarser cells, where particles are not allowed; patch {}",
                         escape.id, counted(margin_, "cell"), escape.patch),
             advice_near_coarser_, "p.x", escape.cell};
@@ -310,6 +315,12 @@ NumericalError Relocation::refusal(int position, const Escape& escape) const {
       if (level.isSymmetry(d, s) && level.cellAlong(d, x[d]) == (s == 0 ? -1 : level.cells().upper[d])) {
         through = d;
         side = s;
+      }
+  if (level.boxes())
+    for (const auto& passed : grid::passedSides<D>(level, level.cellOf<D>(at(Generation::old)), level.cellOf<D>(x)))
+      if (level.isSymmetry(passed.axis, passed.side)) {
+        through = passed.axis;
+        side = passed.side;
       }
   const char axis = "xyz"[level.axis(through)];
   return {fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; patch {}",

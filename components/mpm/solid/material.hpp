@@ -43,6 +43,7 @@ Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const I
 /// position [m], rounded by placeOf.
 template <int D, class Visit>
 void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cell, Visit&& visit) {
+  if (!level.isInside<D>(cell)) return;
   Box places{{}, Index3::filled(1)};
   for (int d = 0; d < D; ++d) places.upper[d] = body.particlesPerCell[level.axis(d)];
   forEach<D>(places, [&](const Index<D>& k) {

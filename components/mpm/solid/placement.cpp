@@ -81,7 +81,7 @@ std::vector<Filling> fill(const Level& level, const Body& body, const Index<D>& 
 template <int D>
 void add(const Level& level, const Body& body, const Seed& seed, Seeds& seeds) {
   const Index<D> cell = level.cellOf<D>(level.reduce<D>(seed.at));
-  if (!level.cells().contains(cell))
+  if (!level.isInside<D>(cell))
     throw InputError({{body.where, "geom_object",
                        fmt::format("a particle would start at ({:g}, {:g}, {:g}) m, outside the grid", seed.at[0],
                                    seed.at[1], seed.at[2])}});

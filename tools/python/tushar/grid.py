@@ -17,13 +17,17 @@ class Grid:
 
     On a refined grid, `spacing` and `cells` are those of the finest of its `levels`, as if the whole grid were that
     fine; `boxes` has a row for each box of cells: level, 0 the coarsest, then lower x, y, z and upper x, y, z in cells
-    of that level. The boxes tile the domain. On a single level there are no boxes."""
+    of that level. The boxes tile the domain. On a single level there are no boxes.
+
+    If a single level consists of several boxes, `inside` has a row for each: lower x, y, z, upper x, y, z, in cells.
+    Values of cells and nodes outside them are 0."""
     lower: Values  # corner of the box [m]
     spacing: Values  # widths of a cell [m]
     cells: Values  # numbers of cells
     dimension: int
     boxes: Values = field(default_factory=lambda: np.zeros((0, 7), int))
     levels: int = 1
+    inside: Values = field(default_factory=lambda: np.zeros((0, 6), int))
 
     @property
     def upper(self) -> Values:
@@ -53,11 +57,20 @@ class Grid:
         cells = np.where(shift < 0, self.cells >> np.maximum(-shift, 0), self.cells << np.maximum(shift, 0))
         return Grid(self.lower, np.ldexp(self.spacing, -shift), cells, self.dimension)
 
+    def mask(self, centring: str) -> Values:
+        """Whether each cell or node, z, y, x, belongs to the grid, or is outside the boxes of which it consists."""
+        nodes = [centring == "node" and axis in self.axes for axis in range(3)]
+        shape = tuple(self.cells[axis] + nodes[axis] for axis in (2, 1, 0))
+        mask = np.full(shape, len(self.inside) == 0)
+        for row in self.inside:
+            mask[tuple(slice(row[axis], row[axis + 3] + nodes[axis]) for axis in (2, 1, 0))] = True
+        return mask
+
     @property
     def counts(self) -> List[int]:
         """The number of cells of each level, the coarsest first."""
         if not self.is_refined:
-            return [int(np.prod(self.cells))]
+            return [int(np.count_nonzero(self.mask("cell")))] if len(self.inside) else [int(np.prod(self.cells))]
         sizes = np.prod(self.boxes[:, 4:] - self.boxes[:, 1:4], axis=1)
         return [int(sizes[self.boxes[:, 0] == level].sum()) for level in range(self.levels)]
 

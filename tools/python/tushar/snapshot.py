@@ -68,6 +68,8 @@ class Snapshot:
             group = self.file["grid"]
             kept = group.attrs
             self._grid = Grid(kept["lower"], kept["spacing"], kept["cells"], int(kept["dimension"]))
+            if "inside" in group:
+                self._grid.inside = group["inside"][()].astype(int)
             if "boxes" in group:
                 levels = len(group["levels"])
                 self._grid = self._grid.level(levels - 1)

@@ -27,6 +27,7 @@ class EnergyBudget : public simulation::Analysis {
  public:
   explicit EnergyBudget(bool storesAllStrain) : stores_all_strain_(storesAllStrain) {}
 
+  bool takesSeveralBoxes() const override { return true; }
   void schedule(TaskList&) const override {}
   void setTime(double, double) override {}
   std::vector<simulation::EnergyTerm> energies() const override {

@@ -148,7 +148,9 @@ void applyFriction(const Patch& patch, const Contact& contact, double dt, const 
   const Box nodes = records.front().box();
   const std::vector<std::size_t> bodies = contact.bodies(records.size());
   const Box counted = contact.keepsMomentum ? nodes : nodes.intersect(level.nodesOfCells());
+  const bool skipsOutside = !contact.keepsMomentum && level.boxes();
   forEachMeeting<D>(counted, bodies, rows, records, [&](const Index<D>& node) {
+    if (skipsOutside && !level.isNodeInside<D>(node)) return;
     const Gathering<D> all = gatherBodies<D>(bodies, records, surfaces, node);
     if (all.normal.isZero() || all.volume <= leastVolume) return;
     const bool together = contact.keepsMomentum && arePressed<D>(level, contact, records, surfaces, all, node);

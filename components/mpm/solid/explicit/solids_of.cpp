@@ -60,6 +60,13 @@ void SolidsOf<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 }
 
 template <int D>
+std::string SolidsOf<D>::whyOneBox() const {
+  if (problem_.start.solution) return "the solution of <RunMMSProblem> fills the box around the boxes";
+  if (problem_.method.nonlocalLayers > 0) return "a nonlocal model averages over particles behind walls, too";
+  return "";
+}
+
+template <int D>
 void SolidsOf<D>::scheduleApplyExternalLoads(TaskList& tasks) const {
   if (problem_.start.solution)
     tasks.perMaterial("mpm::applyExternalLoads", applyManufacturedForce<D>, problem_.materials,

@@ -3,22 +3,25 @@
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "core/grid/nodes_of_sides.hpp"
 
 namespace tushar::mpm::solid {
 
-/// Measures the force of a body on a side of the grid, - sum_i f_i over the nodes of the side, and the area of the side
-/// that the body covers, 2 sum_i V_i / h. showForce computes f_i and V_i. Sides normal to axes that the grid does not
-/// use have no nodes.
+/// Measures the force of a body on a side of the grid, including its inner sides, - sum_i f_i over the nodes of the
+/// side, and the area of the side that the body covers, 2 sum_i V_i / h. showForce computes f_i and V_i. Sides normal
+/// to axes that the grid does not use have no nodes.
 template <int D>
 void measureBoundary(const Patch& patch, const Material&, int face, NodeView<const Vec<D>> force,
                      NodeView<const double> volume, VectorSum& total, Sum& area) {
   for (int d = 0; d < D; ++d) {
     const int side = face % 2;
-    if (patch.level().axis(d) != face / 2 || !patch.isAtBoundary(d, side)) continue;
-    forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
-      if (!isOwned<D>(patch, node)) return;
-      total.add(-patch.level().expandDirection<D>(force[node]));
-      area.add(2 * volume[node] * patch.level().inverseSpacing(d));
+    if (patch.level().axis(d) != face / 2) continue;
+    grid::forEachBoxOnSide(patch, d, side, [&](const Box& nodes) {
+      forEach<D>(nodes, [&](const Index<D>& node) {
+        if (!isOwned<D>(patch, node)) return;
+        total.add(-patch.level().expandDirection<D>(force[node]));
+        area.add(2 * volume[node] * patch.level().inverseSpacing(d));
+      });
     });
   }
 }

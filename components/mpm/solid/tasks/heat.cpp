@@ -1,6 +1,7 @@
 #include "components/mpm/solid/tasks/heat.hpp"
 
 #include "components/mpm/boundary_labels.hpp"
+#include "core/grid/nodes_of_sides.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -9,13 +10,16 @@ void setTemperature(const Patch& patch, int material, NodeView<double> field) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
       const auto given = patch.level().boundary(d, side, boundary::temperature, material);
-      if (!given || !patch.isAtBoundary(d, side)) continue;
+      if (!given) continue;
       const Index<D> inwards = side == 0 ? Index<D>::unit(d) : Index<D>{} - Index<D>::unit(d);
       const double value = given->value, drop = value * patch.level().spacing(d);
-      for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
+      const auto set = [&](const Box& nodes) {
         forEach<D>(nodes, [&](const Index<D>& node) {
           field[node] = given->isDirichlet() ? value : field[node + inwards] - drop;
         });
+      };
+      grid::forEachBoxOnSide(patch, d, side, set);
+      grid::forEachBoxBeyond(patch, d, side, [&](const Box& nodes, int) { set(nodes); });
     }
 }
 

@@ -1,15 +1,19 @@
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
 
+#include "core/grid/nodes_of_sides.hpp"
+
 namespace tushar::mpm::solid {
 
 template <int D>
 void mirrorSurface(const Patch& patch, const Material& material, NodeView<SurfaceRecord> surface) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1})
-      if (patch.isAtBoundary(d, side) && patch.level().isSymmetry(d, side, material.index))
-        forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
-          surface[node].numbers()[d] = 0;
-          surface[node].numbers()[3] *= 2;
+      if (patch.level().isSymmetry(d, side, material.index))
+        grid::forEachBoxOnSide(patch, d, side, [&](const Box& nodes) {
+          forEach<D>(nodes, [&](const Index<D>& node) {
+            surface[node].numbers()[d] = 0;
+            surface[node].numbers()[3] *= 2;
+          });
         });
 }
 

@@ -1,5 +1,7 @@
 #include "components/mpm/solid/explicit/tasks/meeting_nodes.hpp"
 
+#include "core/grid/nodes_of_sides.hpp"
+
 namespace tushar::mpm::solid {
 
 template <int D>
@@ -28,8 +30,7 @@ Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k)
   const int material = nodes.leader[k];
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1})
-      if (patch.isAtBoundary(d, side) && patch.level().isSymmetry(d, side, material) &&
-          patch.faceNodes(d, side).template contains<D>(nodes.node[k]))
+      if (patch.level().isSymmetry(d, side, material) && grid::isOnSide<D>(patch, d, side, nodes.node[k]))
         normal[d] = 0;
   const double length = normal.norm();
   return length > 0 ? Vec<D>(normal / length) : normal;

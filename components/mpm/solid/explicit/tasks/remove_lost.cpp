@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 #include "core/data/vanished.hpp"
 
 namespace tushar::mpm::solid {
@@ -48,18 +50,38 @@ void removeParticle(const StateUpdate<D>& u, int p) {
 /// How far beyond a symmetry plane a particle may drift in a step [cells].
 constexpr double mostDrift = 0.1;
 
+/// Does the same as putBack for planes at inner sides of a level of several boxes. A particle that has passed through
+/// both walls of a re-entrant edge is behind both; it is put back through the nearer one.
+template <int D>
+void putBackThroughInnerPlanes(const Level& level, const Index<D>& from, const BetweenPlanes<D>& space, Vec<D>& x) {
+  const grid::PassedSides passed = space.innerPlanes(from, x);
+  const auto position = [&](const grid::PassedSides::Side& one) { return level.nodePosition(one.axis, one.plane); };
+  const auto depth = [&](const grid::PassedSides::Side& one) {
+    return std::abs(x[one.axis] - position(one)) * level.inverseSpacing(one.axis);
+  };
+  const auto isNearer = [&](const auto& a, const auto& b) { return depth(a) < depth(b); };
+  const auto reflect = [&](const grid::PassedSides::Side& one) {
+    if (depth(one) <= mostDrift) x[one.axis] = 2 * position(one) - x[one.axis];
+  };
+  if (passed.arePastEdge && passed.count > 0)
+    reflect(*std::min_element(passed.begin(), passed.end(), isNearer));
+  else
+    std::for_each(passed.begin(), passed.end(), reflect);
+}
+
 /// Puts a particle that has drifted a little through symmetry planes back, at the same distance in front of them.
 /// Returns whether it is between the planes then. The mean velocity of the corners of a skewed CPDI domain need not
 /// vanish on a plane, though that of the nodes does; as a mirrored body would send an image the other way, the particle
 /// is not lost. Its velocity and F, which the image would have mirrored, stay as they are.
 template <int D>
-bool putBack(const Level& level, const BetweenPlanes<D>& space, Vec<D>& x) {
+bool putBack(const Level& level, const Index<D>& from, const BetweenPlanes<D>& space, Vec<D>& x) {
   for (int d = 0; d < D; ++d) {
     const double most = mostDrift * level.spacing(d);
     if (x[d] < space.lower[d] && x[d] >= space.lower[d] - most) x[d] = 2 * space.lower[d] - x[d];
     if (x[d] > space.upper[d] && x[d] <= space.upper[d] + most) x[d] = 2 * space.upper[d] - x[d];
   }
-  return space.contains(x);
+  if (space.severalBoxes) putBackThroughInnerPlanes<D>(level, from, space, x);
+  return space.contains(from, x);
 }
 
 }  // namespace
@@ -72,7 +94,7 @@ CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const I
   for (int k = 0; k < range.size(); ++k) {
     const int p = range.first + k;
     const bool isInverted = u.deformation[p].determinant() <= 0;
-    if (!isInverted && (!u.newX || putBack<D>(level, space, (*u.newX)[p])))
+    if (!isInverted && (!u.newX || putBack<D>(level, cell, space, (*u.newX)[p])))
       rate.add(waveSpeed[k], u.velocity[p]);
     else if (u.newX)
       removeParticle<D>(u, p);

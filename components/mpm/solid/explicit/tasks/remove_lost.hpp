@@ -4,29 +4,46 @@
 
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/state_update.hpp"
+#include "core/grid/passed_sides.hpp"
 
 namespace tushar::mpm::solid {
 
-/// The space between the symmetry planes at the sides of the grid [m]; infinite along axes without such planes.
+/// The space between the symmetry planes at the sides of the grid [m]; infinite along axes without such planes. On a
+/// level of several boxes, the symmetry planes at its inner sides bound it, too.
 template <int D>
 struct BetweenPlanes {
   Vec<D> lower = Vec<D>::Constant(-std::numeric_limits<double>::infinity()), upper = -lower;
+  const Level* severalBoxes = nullptr;  ///< the level, if it consists of several boxes
+  int material = 0;
 
-  BetweenPlanes(const Level& level, int material) {
+  BetweenPlanes(const Level& level, int number) : severalBoxes(level.boxes() ? &level : nullptr), material(number) {
     for (int d = 0; d < D; ++d) {
       if (level.isSymmetry(d, 0, material)) lower[d] = level.nodePosition(d, 0);
       if (level.isSymmetry(d, 1, material)) upper[d] = level.nodePosition(d, level.cells().upper[d]);
     }
   }
-  /// Whether a position is inside. A position that is not a number counts as inside: the relocation reports it as a
-  /// separate error.
-  bool contains(const Vec<D>& x) const { return containAll(&x, 1); }
+  /// Whether a position is inside, of a particle that was in the cell `from`. A position that is not a number counts as
+  /// inside: the relocation reports it as a separate error.
+  bool contains(const Index<D>& from, const Vec<D>& x) const { return containAll(from, &x, 1); }
   /// Whether all of `count` positions are inside.
-  bool containAll(const Vec<D>* x, int count) const {
+  bool containAll(const Index<D>& from, const Vec<D>* x, int count) const {
     bool inside = true;
     for (int k = 0; k < count; ++k)
       for (int d = 0; d < D; ++d) inside &= !(x[k][d] < lower[d]) & !(x[k][d] > upper[d]);
+    if (severalBoxes)
+      for (int k = 0; k < count; ++k) inside = inside && innerPlanes(from, x[k]).count == 0;
     return inside;
+  }
+  /// The symmetry planes at inner sides through which a particle has passed.
+  grid::PassedSides innerPlanes(const Index<D>& from, const Vec<D>& x) const {
+    grid::PassedSides planes;
+    if (!x.allFinite()) return planes;
+    const Index<D> to = grid::withUpperSides<D>(*severalBoxes, from, x, severalBoxes->cellOf<D>(x));
+    const grid::PassedSides passed = grid::passedSides<D>(*severalBoxes, from, to);
+    planes.arePastEdge = passed.arePastEdge;
+    for (const grid::PassedSides::Side& one : passed)
+      if (severalBoxes->isSymmetry(one.axis, one.side, material)) planes.add(one);
+    return planes;
   }
 };
 

@@ -143,7 +143,8 @@ void updateStates(const Level& level, const Material& material, const Method& me
     CrossingRate<D> rate = none;
     const double* const waveSpeed = moved.waveSpeed.data() + (range.first - first);
     rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
-    if (moved.hasLost || !rate.isKnown() || (u.newX && !space.containAll(u.newX->values() + range.first, range.size())))
+    if (moved.hasLost || !rate.isKnown() ||
+        (u.newX && !space.containAll(cell, u.newX->values() + range.first, range.size())))
       rate = withoutLost<D>(level, u, cell, range, none, space, waveSpeed);
     u.stableTimeStep.add(rate.time());
     if (u.stableTimeSteps) (*u.stableTimeSteps)[cell] = rate.time();
