@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/grid/box.hpp"
@@ -68,20 +67,5 @@ class SeveralBoxes {
   int dimension_, layers_;
   std::array<std::vector<Nodes>, 6> on_, beyond_;
 };
-
-/// What keeps boxes of cells from forming one level.
-struct BoxConflict {
-  enum class Kind {
-    overlap,  ///< the boxes have cells in common
-    apart,    ///< no chain of boxes that share faces of cells leads from one to the other
-    close     ///< they come within two cells of one another with cells outside in between, so that wide shape functions
-              ///< of particles in one of them would reach into the other
-  };
-  Kind kind;
-  std::size_t box, other;  ///< indices of the boxes
-};
-
-/// The first conflict between boxes of cells; none if they form a level.
-std::optional<BoxConflict> conflictOf(const std::vector<Box>& boxes);
 
 }  // namespace tushar::grid

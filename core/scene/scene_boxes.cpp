@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/grid/several_boxes.hpp"
+#include "core/grid/box_conflicts.hpp"
 
 namespace tushar::scene {
 
@@ -107,24 +107,16 @@ void readBoxes(const Element& level, const LevelSection& read, grid::Domain& dom
   std::vector<grid::Box> boxes = BoxReader(level, read, diagnostics).boxes();
   if (diagnostics.size() > before) return;
   if (const auto conflict = grid::conflictOf(boxes)) return refuseConflict(elements, *conflict, diagnostics);
-  grid::Box all = boxes.front();
-  for (std::size_t k = 0; k < boxes.size(); ++k)
-    for (int axis = 0; axis < 3; ++axis) {
-      all.lower[axis] = std::min(all.lower[axis], boxes[k].lower[axis]);
-      all.upper[axis] = std::max(all.upper[axis], boxes[k].upper[axis]);
-      domain.lower[axis] = std::min(domain.lower[axis], read.boxes[k].lower[axis]);
-      domain.upper[axis] = std::max(domain.upper[axis], read.boxes[k].upper[axis]);
-    }
-  double inside = 0, within = 1;
-  for (grid::Box& box : boxes) {
-    inside += static_cast<double>(box.size());
-    box = box.shifted(Index3{} - all.lower);
-  }
+  const grid::Box all = grid::boundingBoxOf(boxes);
   for (int axis = 0; axis < 3; ++axis) {
     domain.resolution[axis] = all.extent(axis);
-    within *= all.extent(axis);
+    for (const GridBox& box : read.boxes) {
+      domain.lower[axis] = std::min(domain.lower[axis], box.lower[axis]);
+      domain.upper[axis] = std::max(domain.upper[axis], box.upper[axis]);
+    }
   }
-  if (inside == within) return;  // together they are one box
+  if (grid::fillTheirBoundingBox(boxes)) return;
+  for (grid::Box& box : boxes) box = box.shifted(Index3{} - all.lower);
   refusePeriodic(level, read, diagnostics);
   domain.boxes = std::move(boxes);
 }

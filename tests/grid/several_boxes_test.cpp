@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "core/grid/box_conflicts.hpp"
 #include "core/grid/grid.hpp"
 #include "core/grid/nodes_of_sides.hpp"
 #include "core/grid/passed_sides.hpp"
