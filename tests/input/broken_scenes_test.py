@@ -167,7 +167,7 @@ TEXTS = {
                           "tag <checkpoint> is given twice"),
     "second Box": (SOD.replace("</Level>", "<Box><lower>[1,0,0]</lower><upper>[2,1,1]</upper>"
                                "<resolution>[9,1,1]</resolution></Box></Level>"), ":33:6",
-                   "the first Level can have only one Box; this is a second one"),
+                   "its cells are 0.111111 m wide along x, but those of the first Box, at "),
     "second Level": (SOD.replace("</Level>", "</Level><Level><Box><lower>[0,0,0]</lower><upper>[.5,1,1]</upper>"
                                  "<resolution>[100,1,1]</resolution></Box></Level>"), ":33:14",
                      "'mpm' needs a grid of one level: its gas fills the grid"),

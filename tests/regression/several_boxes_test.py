@@ -12,9 +12,9 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/python"))
 import tushar
-from same_bits import SameBitsTest
-from solids import RefusedSceneTest, SceneTest, archive_of
+from solids import RefusedSceneTest, SceneTest, archive_of, globals_of
 from sus import ROOT, run
+from uda import FolderTest
 
 SCENE = (ROOT / "ups/solid/shaft.ups").read_text()
 SYMMETRY = '<BCType id="all" label="Symmetric" var="symmetry"/>'
@@ -63,16 +63,16 @@ def sorted_rows(*arrays):
 
 
 class InnerSides(SceneTest):
-    def particles_of(self, text, *sets):
+    def particles_of(self, text, end):
         """Positions and velocities at the end."""
         with tempfile.TemporaryDirectory() as folder:
-            archive = archive_of(self.scene(text), folder, *sets)
+            archive = archive_of(self.scene(text), folder, f"Time/maxTime={end}", f"DataArchiver/outputInterval={end}")
             with tushar.open(archive)[-1] as last:
                 return sorted_rows(last["p.x"][:], last["p.velocity"][:])
 
-    def assert_same(self, text, alone, *sets, left=0):
+    def assert_same(self, text, alone, end):
         """The particles of a scene must have the same bits in the scene with one of its boxes `alone`."""
-        found, expected = (self.particles_of(one, *sets) for one in (text, text.replace(alone, "")))
+        found, expected = (self.particles_of(one, end) for one in (text, text.replace(alone, "")))
         self.assertEqual(found.tobytes(), expected.tobytes(), np.abs(found - expected).max()
                          if found.shape == expected.shape else (found.shape, expected.shape))
         return found
@@ -80,7 +80,7 @@ class InnerSides(SceneTest):
     def test_a_block_in_the_shaft_moves_as_in_a_grid_of_the_shaft_alone(self):
         for interpolator in INTERPOLATORS:
             with self.subTest(interpolator):
-                found = self.assert_same(scene(interpolator), CHANNEL, "Time/maxTime=.035")
+                found = self.assert_same(scene(interpolator), CHANNEL, .035)
                 self.assertLess(found[:, 4].mean(), -.9 * 9.81 * .035)
 
     def test_a_block_thrown_against_the_ceiling_of_the_channel_rebounds_as_from_a_side_of_the_grid(self):
@@ -88,27 +88,34 @@ class InnerSides(SceneTest):
         for interpolator in INTERPOLATORS[1:]:
             for condition in (SYMMETRY, FIXED):
                 with self.subTest(interpolator=interpolator, condition=condition):
-                    found = self.assert_same(scene(interpolator, condition, **up), SHAFT, "Time/maxTime=.15")
+                    found = self.assert_same(scene(interpolator, condition, **up), SHAFT, .15)
                     self.assertEqual(len(found), 12 * 8)
                     self.assertTrue(.46875 < found[:, 1].max() < .5, "it touches the ceiling")
 
     def test_particles_leave_through_free_inner_sides_as_through_sides_of_the_grid(self):
-        for name, alone, block, end in (("shaft", CHANNEL, "<min>[0.4375,0.6875,0]</min><max>[0.5625,0.8125,0.0313]</max>", .18),
+        for name, alone, block, end in (("shaft", CHANNEL, "<min>[0.4375,0.6875,0]</min><max>[0.5625,0.8125,0.0313]</max>", .2),
                                         ("channel", SHAFT, "<min>[0.75,0.25,0]</min><max>[0.875,0.375,0.0313]</max>", .14)):
             with self.subTest(name):
                 text = scene(condition="", BLOCK=block, GRAVITY="[4,0,0]" if name == "shaft" else "[0,19.62,0]")
-                found = self.assert_same(text, alone, f"Time/maxTime={end}")
+                found = self.assert_same(text, alone, end)
                 self.assertTrue(0 < len(found) < 64, len(found))
 
     def test_a_block_falls_out_of_the_shaft_like_a_free_body(self):
         for interpolator in ("linear", "gimp"):
             text = scene(interpolator, GRAVITY="[0,-9.81,0]")
             report = run(self.scene(text), "Time/maxTime=.3").report
-            self.assertEqual((report["dropped"], report["removed"]), (0, 0))
-            found = self.particles_of(text, "Time/maxTime=.3")
+            self.assertEqual((report["particles_dropped"], report["particles_removed"]), (0, 0))
+            found = self.particles_of(text, .3)
             self.assertLess(found[:, 1].max(), .5, "all of it is in the channel")
             self.assertLess(np.ptp(found[:, 4]) / 9.81 / .3, 1e-9, "nothing holds it at the edges of the shaft")
             self.assertLess(np.abs(found[:, 3]).max(), 1e-9)
+
+    def test_gravity_accelerates_a_block_that_is_pressed_against_the_wall_of_the_shaft(self):
+        lines = globals_of("ups/solid/shaft.ups", "TotalMomentum", until=.3)["TotalMomentum"]
+        mass = 1000 * .25 * .25 * .03125
+        slower = [1 + line[2] / (mass * 9.81 * line[0]) for line in lines if line[0] > 0]
+        self.assertLess(max(map(abs, slower[:len(slower) // 2])), 1e-8, "in the shaft")
+        self.assertLess(max(map(abs, slower)), 1e-4, "while its upper end passes the edge")
 
     def test_several_boxes_that_fill_a_box_are_as_this_box(self):
         low = CHANNEL.replace("upper>[1,0.5", "upper>[1,0.25").replace("[32,16,1]", "[32,8,1]")
@@ -120,7 +127,8 @@ class InnerSides(SceneTest):
 
     def test_outputs_say_which_cells_are_inside(self):
         with tempfile.TemporaryDirectory() as folder:
-            with tushar.open(archive_of(self.scene(SCENE), folder, "Time/maxTime=.3"))[-1] as last:
+            with tushar.open(archive_of(self.scene(scene("linear")), folder, "Time/maxTime=.035",
+                                         "DataArchiver/outputInterval=.035"))[-1] as last:
                 grid, mass = last.grid, last["g.mass"][:]
         self.assertEqual(grid.inside.tolist(), [[0, 0, 0, 32, 16, 1], [12, 16, 0, 20, 32, 1]])
         self.assertEqual(grid.counts, [640])
@@ -129,12 +137,22 @@ class InnerSides(SceneTest):
         self.assertAlmostEqual(float(mass.sum()), 1000 * .25 * .25 * .03125, places=9)
 
 
-class Patches(SameBitsTest):
+class Patches(FolderTest):
     def test_the_same_bits_on_any_patches_threads_ranks_and_after_a_restart(self):
-        name = ROOT / "ups/solid/shaft.ups"
-        layouts = ["[1,1,1]", "[2,2,1]", "[3,3,1]", "[32,16,1]", "[1,7,1]", "[5,1,1]"]
-        for ranks in (2, 3):
-            self.assert_same(name, 2300, layouts, ranks=ranks)
+        name, steps = "ups/solid/shaft.ups", 1300  # it has passed the edges of the shaft, and landed
+        prints = {self.fingerprint_of_two_parts(name, steps)}
+        for layout, threads, ranks in (("1x1x1", 1, 1), ("2x2x1", 2, 1), ("3x3x1", 1, 3), ("32x32x1", 2, 1),
+                                       ("1x7x1", 1, 2), ("5x1x1", 2, 1)):
+            done = run(name, f"Time/max_Timesteps={steps}", ranks=ranks,
+                       options=("--quiet", "-layout", layout, "-nthreads", str(threads)))
+            self.assertIsNotNone(done.report, done.err)
+            prints.add(done.report["fingerprint"])
+        self.assertEqual(len(prints), 1)
+
+    def test_cuts_may_follow_the_particles(self):
+        steps = "Time/max_Timesteps=700"
+        expected = run("ups/solid/shaft.ups", steps, options=("--quiet", "-layout", "1x1x1")).report["fingerprint"]
+        self.assertEqual(run("ups/solid/shaft.ups", steps, ranks=3).report["fingerprint"], expected)
 
     def test_a_restart_with_other_boxes_is_refused(self):
         folder = self.folder()
