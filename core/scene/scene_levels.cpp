@@ -16,7 +16,8 @@ namespace {
 
 const Schema<GridBox>& boxSchema() {
   static const Schema<GridBox> schema =
-      Schema<GridBox>("Box", "A box that is divided into cells.")
+      Schema<GridBox>(
+          "Box", "A box of cells. For solids with explicit steps, the first Level may have several, which share faces.")
           .attributeValue("label", &GridBox::label, "", "1", "name")
           .required("lower", &GridBox::lower, "m", "lower corner")
           .required("upper", &GridBox::upper, "m", "upper corner")

@@ -117,14 +117,6 @@ TEST(Levels, ThatCannotBeGetASentence) {
                      "possible ratio is 32768"}));
 }
 
-TEST(Levels, TheFirstHasOneBox) {
-  const Read found = read(level(box("0,0,0", "1,1,0", "16,16,1") + box("0,0,0", "1,1,0", "16,16,1")));
-
-  EXPECT_EQ(found.problems,
-            (Strings{"Grid/Level/Box: the first Level can have only one Box; this is a second one (the first is at "
-                     "s.ups:1:37)"}));
-}
-
 TEST(Levels, RefinedGridsHaveNoPatchesOfTheScene) {
   const Read found = read(level(box("0,0,0", "2,1,0", "64,32,1", "<patches>[2,2,1]</patches>")) +
                           level(box(".5,.25,0", "1,.5,0", "32,16,1", "<autoPatch>4</autoPatch>")));
