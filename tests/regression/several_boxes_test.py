@@ -188,14 +188,18 @@ class Refusals(RefusedSceneTest):
                 text = (ROOT / f"ups/{name}.ups").read_text()
                 kind = re.search('SimulationComponent type="(.*?)"', text).group(1)
                 self.assert_refused(text.replace("</Box>", f"</Box>{half_a_box_beside(text)}", 1),
-                                    f"Grid/Level/Box[2]: '{kind}' needs a grid of one box: it takes the cells between "
+                                    f"Grid/Level/Box: '{kind}' needs a grid of one box: it takes the cells between "
                                     "the boxes for cells of the grid")
 
     def test_what_solids_cannot_do_on_several_boxes(self):
         regridder = "<AMR><Regridder><max_levels>2</max_levels></Regridder></AMR>"
-        module = ('<DataAnalysis><Module name="minMax"><samplingFrequency>1</samplingFrequency><Variables>'
+        module = ('<DataAnalysis><Module name="minMax"><samplingFrequency>1</samplingFrequency><timeStart>0</timeStart>'
+                  '<timeStop>1</timeStop><Variables>'
                   '<analyze label="g.mass"/></Variables></Module></DataAnalysis>')
-        for text, sentence in ((SCENE.replace("</Grid>", f"</Grid>{regridder}"),
+        solution = (ROOT / "ups/solid/axis_aligned.ups").read_text()
+        solution = solution.replace("</Box>", f"</Box>{half_a_box_beside(solution)}", 1)
+        for text, sentence in ((solution, "needs a grid of one box: the solution of <RunMMSProblem> fills the box"),
+                               (SCENE.replace("</Grid>", f"</Grid>{regridder}"),
                                 "a grid of several levels needs one Box in its first Level"),
                                (SCENE.replace("</Grid>", f"</Grid>{module}"),
                                 "DataAnalysis/Module: needs a grid of one box: the first Level has several")):
