@@ -205,18 +205,17 @@ void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrS
                                   kind.name));
 }
 
-/// Refuses several levels if the component cannot run on them with the settings of the scene.
-Location checkTakesLevels(const ComponentKind& kind, const Component& component, const Element& grid,
-                          const AmrSettings& amr, Diagnostics& diagnostics) {
-  const Element where = whereOfLevels(grid, amr);
-  if (const std::string why = component.whyOneLevel(); !why.empty())
-    diagnostics.error(where, fmt::format("'{}' needs a grid of one level: {}", kind.name, why));
-  return where.where();
-}
-
-/// Refuses a level of several boxes if the component cannot run on it.
-void checkTakesBoxes(const ComponentKind& kind, const Component& component, const Element& grid,
-                     Diagnostics& diagnostics) {
+/// Refuses several levels, and a level of several boxes, if the component cannot run on them with the settings of the
+/// scene. Records the tag that requests several levels.
+void checkTakesGrid(const ComponentKind& kind, const Component& component, const Element& grid,
+                    const grid::Domain& domain, AmrSettings& amr, Diagnostics& diagnostics) {
+  if (domain.refinement.levels > 1) {
+    const Element where = whereOfLevels(grid, amr);
+    if (const std::string why = component.whyOneLevel(); !why.empty())
+      diagnostics.error(where, fmt::format("'{}' needs a grid of one level: {}", kind.name, why));
+    amr.regrid.where = where.where();
+  }
+  if (domain.boxes.empty()) return;
   if (const std::string why = component.whyOneBox(); !why.empty())
     diagnostics.error(grid.children("Level").front().children("Box")[1],
                       fmt::format("'{}' needs a grid of one box: {}", kind.name, why));
@@ -349,9 +348,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.grid = std::make_unique<grid::Grid>(domain, share);
   takeThreads(workers, problem);
   problem.component = makeComponent(problem.grid->finest());
-  if (domain.refinement.levels > 1)
-    amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);
-  if (!domain.boxes.empty()) checkTakesBoxes(*kind, *problem.component, *root.child("Grid"), diagnostics);
+  checkTakesGrid(*kind, *problem.component, *root.child("Grid"), domain, amr, diagnostics);
   problem.smallerSteps = smallerStepsOn(*problem.grid, amr, diagnostics);
   problem.regrid = settled(std::move(amr), *problem.component, diagnostics);
   problem.regrid.adaptive = problem.regrid.adaptive && problem.grid->levels() > 1;

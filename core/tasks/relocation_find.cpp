@@ -58,6 +58,13 @@ inline int cellNear(const grid::Level& level, int axis, int cell, double lower, 
   return level.cellAlong(axis, x);
 }
 
+/// Does what grid::withUpperSides does; not inline, because hardly any grid has inner sides.
+template <int D>
+[[gnu::noinline]] Index<D> cellBesideInnerSides(const grid::Level& level, const Index<D>& from, const Vec<D>& x,
+                                                const Index<D>& found) {
+  return grid::withUpperSides<D>(level, from, x, found);
+}
+
 /// Brings a position back to the grid along periodic axes.
 template <int D>
 void wrap(const grid::Level& level, Vec<D>& x) {
@@ -196,7 +203,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
       if (isInside<D>(x[p], bounds.lower, bounds.upper)) continue;
       Index<D> to;
       for (int d = 0; d < D; ++d) to[d] = cellNear(level, d, cell[d], bounds.lower[d], bounds.upper[d], x[p][d]);
-      if (level.boxes()) to = grid::withUpperSides<D>(level, cell, x[p], to);
+      if (level.boxes()) to = cellBesideInnerSides<D>(level, cell, x[p], to);
       if (to == cell) continue;
       moves.departed.push_back(p);
       move<D>(patch, {cell, to}, x[p], ids[p], moves);

@@ -10,6 +10,27 @@
 
 namespace tushar::mpm::solid {
 
+template <int D>
+bool BetweenPlanes<D>::areBetweenInnerPlanes(const Index<D>& from, const Vec<D>* x, int count) const {
+  return std::all_of(x, x + count, [&](const Vec<D>& one) { return innerPlanes(from, one).count == 0; });
+}
+
+template <int D>
+grid::PassedSides BetweenPlanes<D>::innerPlanes(const Index<D>& from, const Vec<D>& x) const {
+  grid::PassedSides planes;
+  if (!x.allFinite()) return planes;
+  const Index<D> to = grid::withUpperSides<D>(*severalBoxes, from, x, severalBoxes->cellOf<D>(x));
+  const grid::PassedSides passed = grid::passedSides<D>(*severalBoxes, from, to);
+  planes.arePastEdge = passed.arePastEdge;
+  for (const grid::PassedSides::Side& one : passed)
+    if (severalBoxes->isSymmetry(one.axis, one.side, material)) planes.add(one);
+  return planes;
+}
+
+template struct BetweenPlanes<1>;
+template struct BetweenPlanes<2>;
+template struct BetweenPlanes<3>;
+
 namespace {
 
 /// The error for the first particle of a cell whose wave speed is undefined: its velocity is not a number, it is

@@ -30,21 +30,13 @@ struct BetweenPlanes {
     bool inside = true;
     for (int k = 0; k < count; ++k)
       for (int d = 0; d < D; ++d) inside &= !(x[k][d] < lower[d]) & !(x[k][d] > upper[d]);
-    if (severalBoxes)
-      for (int k = 0; k < count; ++k) inside = inside && innerPlanes(from, x[k]).count == 0;
-    return inside;
+    return inside && (!severalBoxes || areBetweenInnerPlanes(from, x, count));
   }
   /// The symmetry planes at inner sides through which a particle has passed.
-  grid::PassedSides innerPlanes(const Index<D>& from, const Vec<D>& x) const {
-    grid::PassedSides planes;
-    if (!x.allFinite()) return planes;
-    const Index<D> to = grid::withUpperSides<D>(*severalBoxes, from, x, severalBoxes->cellOf<D>(x));
-    const grid::PassedSides passed = grid::passedSides<D>(*severalBoxes, from, to);
-    planes.arePastEdge = passed.arePastEdge;
-    for (const grid::PassedSides::Side& one : passed)
-      if (severalBoxes->isSymmetry(one.axis, one.side, material)) planes.add(one);
-    return planes;
-  }
+  grid::PassedSides innerPlanes(const Index<D>& from, const Vec<D>& x) const;
+
+ private:
+  bool areBetweenInnerPlanes(const Index<D>& from, const Vec<D>* x, int count) const;
 };
 
 /// Removes the lost particles of a cell in which a wave speed is undefined or a particle is deformed too much or lies
