@@ -93,8 +93,9 @@ class InnerSides(SceneTest):
                     self.assertLess(found[:, 4].mean(), .5 * 19.62 * .13, "the ceiling stops it")
 
     def test_particles_leave_through_free_inner_sides_as_through_sides_of_the_grid(self):
-        for name, alone, block, end in (("shaft", CHANNEL, "<min>[0.4375,0.6875,0]</min><max>[0.5625,0.8125,0.0313]</max>", .2),
-                                        ("channel", SHAFT, "<min>[0.75,0.25,0]</min><max>[0.875,0.375,0.0313]</max>", .14)):
+        in_shaft = "<min>[0.4375,0.6875,0]</min><max>[0.5625,0.8125,0.0313]</max>"
+        in_channel = "<min>[0.75,0.25,0]</min><max>[0.875,0.375,0.0313]</max>"
+        for name, alone, block, end in (("shaft", CHANNEL, in_shaft, .2), ("channel", SHAFT, in_channel, .14)):
             with self.subTest(name):
                 text = scene(condition="", BLOCK=block, GRAVITY="[4,0,0]" if name == "shaft" else "[0,19.62,0]")
                 found = self.assert_same(text, alone, end)
@@ -168,7 +169,8 @@ class Refusals(RefusedSceneTest):
     def test_boxes_that_do_not_form_a_level(self):
         apart = SHAFT.replace("lower>[0.375,0.5,", "lower>[0.375,0.53125,").replace("[8,16,1]", "[8,15,1]")
         for text, sentence in (
-                (SHAFT.replace("[8,16,1]", "[8,17,1]"), "its cells are 0.0294118 m wide along y, but those of the first "),
+                (SHAFT.replace("[8,16,1]", "[8,17,1]"),
+                 "its cells are 0.0294118 m wide along y, but those of the first "),
                 (SHAFT.replace("[0.375,", "[0.36,").replace("[0.625,", "[0.61,"),
                  "its lower corner is 0.36 m from that of the first Box along x, at "),
                 (SHAFT.replace("lower>[0.375,0.5,", "lower>[0.375,0.375,").replace("[8,16,1]", "[8,20,1]"),
