@@ -303,8 +303,7 @@ template <int D>
 std::string MpmIce<D>::advice() const {
   const std::string common = "a smaller CFD/cfl, or more particles per cell along surfaces (res)";
   if (!gas_->areBodiesRigid()) return common;
-  return common +
-         "; bodies of rmpmice keep their velocities, also at sides of the grid: end the run before, or use mpmice";
+  return common + "; bodies of rmpmice do not stop at sides of the grid: end the run before they arrive";
 }
 
 template <int D>

@@ -102,19 +102,20 @@ struct FrictionOfStep {
   }
 
  private:
-  /// The mass, per cell volume, on which the friction in a cell acts [kg/m³]. For a small cell, it includes that of the
-  /// larger neighbour with least mass, because it may be merged with any of them.
+  /// The mass, per cell volume, on which the friction in a cell acts [kg/m³]. A small cell is merged with one of the
+  /// larger cells around it at the end of the step, so that the least of their masses counts, too. It does not if it is
+  /// much greater than that of the cell: merged cells have the same density, so they were not merged before, and the
+  /// traces of gas behind a body that leaves a wall could not take the friction of a dense gas.
   double massAbout(const Index<D>& cell) const {
-    const double own = cells.held.density[cell];
-    if (!(cells.free[cell] < smallFreeVolume)) return own;
+    const double own = cells.held.density[cell], free = cells.free[cell];
+    if (!(free < smallFreeVolume)) return own;
     double least = std::numeric_limits<double>::infinity();
-    for (int a = 0; a < D; ++a)
-      for (int side = 0; side < 2; ++side) {
-        if (space.isAtSide(cell, a, side) || !(space.aperture(cell, a, side) > 0)) continue;
-        const Index<D> next = side == 0 ? cell - Index<D>::unit(a) : cell + Index<D>::unit(a);
-        if (cells.free[next] > cells.free[cell]) least = std::min(least, cells.held.density[next]);
-      }
-    return std::isfinite(least) ? own + least : own;
+    forEach<D>(level.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& next) {
+      if (!space.isEmpty(next) && cells.free[next] >= smallFreeVolume)
+        least = std::min(least, cells.held.density[next]);
+    });
+    constexpr double alike = 10;
+    return least * free < alike * own ? own + least : own;
   }
 };
 

@@ -33,13 +33,16 @@ bool isEmpty(const Level& level, const Body& body) {
   return !hasParticle<D>(level, body, body.shape->bounds(), [](const Vec3&) { return true; });
 }
 
-/// Whether a particle of a body starts inside another one; only for bodies whose particles start in parts of cells.
+/// Whether a particle of one of two bodies starts inside the other one; only for bodies whose particles start in parts
+/// of cells.
 template <int D>
-bool overlap(const Level& level, const Body& body, const Body& other) {
-  if (body.seeds || other.seeds) return false;
-  const input::Box3 common = body.shape->bounds().common(other.shape->bounds());
-  return ((common.max - common.min).array() >= 0).all() &&
-         hasParticle<D>(level, body, common, [&](const Vec3& at) { return other.shape->contains(at); });
+bool overlap(const Level& level, const Body& one, const Body& other) {
+  if (one.seeds || other.seeds) return false;
+  const input::Box3 common = one.shape->bounds().common(other.shape->bounds());
+  const auto startsIn = [&](const Body& body, const Body& around) {
+    return hasParticle<D>(level, body, common, [&](const Vec3& at) { return around.shape->contains(at); });
+  };
+  return ((common.max - common.min).array() >= 0).all() && (startsIn(one, other) || startsIn(other, one));
 }
 
 template <int D>

@@ -73,6 +73,8 @@ class HeatExchange {
       if (present > solid) given += things.capacity[m] * change;
       for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
     }
+    // A single gas is better known by its own change: the round-off of the heat of bodies may exceed all its heat.
+    if (present > solid && settings_.gases.empty()) given = -things.capacity[first] * changes.temperature[first];
     gas_.totalEnergy[cell] -= given;
     if (present > solid && !settings_.gases.empty() && !areBlended(settings_))
       ice::changeShares(changes, first, gas_.free[cell],

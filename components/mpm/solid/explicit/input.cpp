@@ -381,6 +381,7 @@ SurroundedSolids readSurrounded(const Element& root, Diagnostics& diagnostics) {
   auto make = [read = *read](const Level& level, bool areRigid, std::shared_ptr<const Surroundings> surroundings) {
     ReadSolids solids = read;
     for (Material& material : solids.problem.materials) material.isRigid |= areRigid;
+    if (areRigid) solids.problem.method.gravity.setZero();  // the bodies keep their velocities
     solids.problem.surroundings = std::move(surroundings);
     return makeComponent(level, solids);
   };
