@@ -74,8 +74,9 @@ void noteThinBodies(const std::vector<mpm::solid::Material>& materials, const El
       const double cells = (bounds.max[axis] - bounds.min[axis]) / grid->widths[axis];
       if (!(cells > 0 && cells < leastCells * (1 - 1e-9))) continue;
       diagnostics.note(body.where, "MaterialProperties/MPM/material/geom_object",
-                       fmt::format("is {:.2g} cells thick along {}: gas leaks through bodies thinner than {:g} cells; "
-                                   "to prevent this, set <thin_walls> of <ICE> to true, or refine the grid",
+                       fmt::format("is only {:.2g} times as thick as a cell along {}: gas leaks through bodies thinner "
+                                   "than {:g} cells; to prevent this, set <thin_walls> of <ICE> to true, or refine the "
+                                   "grid",
                                    cells, "xyz"[axis], leastCells));
     }
   }

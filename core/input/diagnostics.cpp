@@ -6,8 +6,19 @@
 
 namespace tushar::input {
 
+namespace {
+
+/// Adds a message, unless it is already there: a section that several parts of a component read is checked by each.
+void addOnce(std::vector<InputProblem>& list, InputProblem one) {
+  const std::string text = one.text();
+  const bool isThere = std::any_of(list.begin(), list.end(), [&](const auto& other) { return other.text() == text; });
+  if (!isThere) list.push_back(std::move(one));
+}
+
+}  // namespace
+
 void Diagnostics::error(const Location& where, std::string tagPath, std::string sentence) {
-  problems_.push_back({where, std::move(tagPath), std::move(sentence)});
+  addOnce(problems_, {where, std::move(tagPath), std::move(sentence)});
 }
 
 void Diagnostics::error(const Element& element, std::string sentence) {
@@ -19,7 +30,7 @@ void Diagnostics::note(const Element& element, std::string sentence) {
 }
 
 void Diagnostics::note(const Location& where, std::string tagPath, std::string sentence) {
-  notes_.push_back({where, std::move(tagPath), std::move(sentence)});
+  addOnce(notes_, {where, std::move(tagPath), std::move(sentence)});
 }
 
 std::vector<InputProblem> Diagnostics::sorted() const {

@@ -12,6 +12,15 @@ namespace tushar::simulation {
 
 using report::Report;
 
+namespace {
+
+/// Number of cells of all levels, or of the boxes of a single level.
+std::uint64_t cellsOf(const grid::Grid& grid) {
+  return grid.levels() > 1 ? grid.cellCount() : grid.level().cellsInside();
+}
+
+}  // namespace
+
 void RunReport::beginLoop(double outputSeconds) {
   loop_started_ = Clock::now();
   output_before_ = outputSeconds;
@@ -49,7 +58,7 @@ void RunReport::noteStep(const std::vector<int>& stepsOfLevels) {
     for (ReportedSoFar& one : run_.reportedSoFar) one.isKnown = false;
   } else {
     run_.addStepToReported();
-    updates_ += static_cast<double>(run_.problem.grid->level().cellsInside());
+    updates_ += static_cast<double>(cellsOf(*run_.problem.grid));
     uniform_updates_ += static_cast<double>(run_.problem.grid->finest().cells().size());
   }
   for (int material = 0; material < run_.materials(); ++material)
@@ -102,8 +111,7 @@ void RunReport::addLayout(Report& report) {
   report.ranks = run_.ranks.size();
   report.threads = run_.scheduler.threads().count();
   report.spacing = problem.grid->finest().minSpacing();
-  report.cells =
-      static_cast<long>(problem.grid->levels() > 1 ? problem.grid->cellCount() : problem.grid->level().cellsInside());
+  report.cells = static_cast<long>(cellsOf(*problem.grid));
   report.updates = updates_;
   report.uniformUpdates = uniform_updates_;
   report.levels = cellsOfLevels();

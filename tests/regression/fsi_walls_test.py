@@ -29,7 +29,7 @@ class Walls(unittest.TestCase):
 
 class ThinBodies(SceneTest):
     def test_are_noted(self):
-        note = "is 0.75 cells thick along x: gas leaks through bodies thinner than 1.25 cells"
+        note = "is only 0.75 times as thick as a cell along x: gas leaks through bodies thinner than 1.25 cells"
         for cells, thin_walls, is_noted in ((.75, "false", True), (.75, "true", False), (1.25, "false", False)):
             text = changed(thin_plug(cells), ("<ICE><adv", f"<ICE><thin_walls>{thin_walls}</thin_walls><adv"))
             done = run(self.scene(text), options=("--check",))

@@ -60,6 +60,11 @@ void SolidsOf<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 }
 
 template <int D>
+std::string SolidsOf<D>::whyOneLevel() const {
+  return transmitsForce() ? "a body with <is_force_transmitting_material> moves by the forces on all of it" : "";
+}
+
+template <int D>
 std::string SolidsOf<D>::whyOneBox() const {
   if (problem_.start.solution) return "the solution of <RunMMSProblem> fills the box around the boxes";
   if (problem_.method.nonlocalLayers > 0) return "a nonlocal model averages over particles behind walls, too";

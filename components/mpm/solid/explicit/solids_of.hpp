@@ -28,6 +28,7 @@ class SolidsOf : public Solids {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   bool measuresWork() const override { return true; }
+  std::string whyOneLevel() const override;
   std::string whyOneBox() const override;
 
  protected:
