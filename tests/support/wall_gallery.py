@@ -88,6 +88,7 @@ CASES = {
                                 f"{BODY}/density=33", "Grid/Level/Box/resolution=[24,24,1]"), .4, None),
     "viscous, leaves a wall": (leaving("[0.8,0,0]", 1e-3), .4, None),
     "viscous, leaves a wall fast": (leaving("[4,0,0]", 1e-4), .2, None),
+    "viscous, leaves a wall sideways": (leaving("[3,0.3,0]", .05), .2, None),
 }
 
 
