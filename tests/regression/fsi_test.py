@@ -221,6 +221,12 @@ class RigidBodies(SceneTest):
         speeds = columns(archive_of(scene, scene.parent), "p.velocity")["p.velocity.x [m/s]"]
         self.assertLess(max(abs(speed - 1) for speed in speeds), 1e-12)
 
+    def test_do_not_fall(self):
+        text = changed(fsi.scene("moving_piston").read_text(), ("<gravity>[0,0,0]", "<gravity>[0.3,0,0]"))
+        scene = self.scene(text)
+        speeds = columns(archive_of(scene, scene.parent), "p.velocity")["p.velocity.x [m/s]"]
+        self.assertLess(max(abs(speed - 1) for speed in speeds), 1e-12)
+
     def test_stay_where_they_are_in_a_flow(self):
         save = '<save label="c.pressure"/>'
         scene = self.scene(changed(fsi.scene("wedge").read_text(), (save, save + '<save label="p.velocity"/>')))

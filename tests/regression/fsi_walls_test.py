@@ -7,10 +7,13 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
-from fsi_test import changed, thin_plug
+from fsi_test import thin_plug
+from gas_and_bodies import changed
 from solids import SceneTest, globals_of, last_state
 from sus import run
-from wall_gallery import CASES, Case
+from wall_gallery import CASES, Case, leaving, text_of
+
+HEAT = "MaterialProperties/exchange_properties/exchange_coefficients/heat=[1e15]"
 
 
 class Walls(unittest.TestCase):
@@ -25,6 +28,16 @@ class Walls(unittest.TestCase):
                 self.assertGreaterEqual(case.least("LeastGasHeat"), 0)
                 if case.leak is not None:
                     self.assertLessEqual(case.leak, case.most_leak)
+
+
+class TracesOfGas(SceneTest):
+    def test_beside_a_body_take_no_round_off_of_its_heat(self):
+        """The body leaves a wall; the heat in its cells is 1e25 times that of the gas behind it."""
+        sets = (*leaving("[0.8,0,0]", 0), HEAT)
+        text = changed(text_of(sets), ("</constitutive_model>", "</constitutive_model><specific_heat>1000</specific_heat>"
+                                                                "<thermal_conductivity>0</thermal_conductivity>"))
+        least = globals_of(self.scene(text), "LeastGasHeat", sets=(*sets, "Time/maxTime=0.05"))["LeastGasHeat"]
+        self.assertGreaterEqual(min(row[1] for row in least), 0)
 
 
 class ThinBodies(SceneTest):
