@@ -89,6 +89,11 @@ class Conservation(ConservationTest):
         text = changed(rigid(fsi.scene("contact").read_text()), LIGHT, ("<temperature>10<", "<temperature>30<"),
                        ("<reference_pressure>1<", "<reference_pressure>0<"))
         self.assert_energy_grows(text, {"GasMass": 30})
+        exchanging = changed(text, ("<heat>[0]", "<heat>[50]"), ("<res>[4,1,1]</res>",
+                                                                 "<res>[4,1,1]</res><temperature>5</temperature>"),
+                             ("</constitutive_model>", "</constitutive_model><specific_heat>1</specific_heat>"
+                                                       "<thermal_conductivity>0</thermal_conductivity>"))
+        self.assert_energy_grows(exchanging, {"GasMass": 30})
 
     def test_of_heat_changes_no_bit_on_any_patches(self):
         scene = self.scene(self.warm("50, 20, 5"))

@@ -73,8 +73,7 @@ class HeatExchange {
       if (present > solid) given += things.capacity[m] * change;
       for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
     }
-    // A single gas is better known by its own change: the round-off of the heat of bodies may exceed all its heat.
-    if (present > solid && settings_.gases.empty()) given = -things.capacity[first] * changes.temperature[first];
+    if (present > solid && knowsHeatOfGas()) given = things.given.sum() - gainOfGas(things, changes);
     gas_.totalEnergy[cell] -= given;
     if (present > solid && !settings_.gases.empty() && !areBlended(settings_))
       ice::changeShares(changes, first, gas_.free[cell],
@@ -83,6 +82,19 @@ class HeatExchange {
   }
 
  private:
+  /// Whether the heat that gases gain is m c_v dT alone. Then, it is better known than what bodies lose, whose
+  /// round-off may exceed all heat of a trace of gas. Stiffened gases that share a cell also gain p_inf dV.
+  bool knowsHeatOfGas() const {
+    return areBlended(settings_) || std::all_of(settings_.gases.begin(), settings_.gases.end(),
+                                                [](const auto& one) { return one.gas.pInfinity == 0; });
+  }
+  /// Heat that the gases gain from bodies and from outside [J/m³].
+  double gainOfGas(const ice::WarmThings<Most>& things, const ice::HeatChanges<Most>& changes) const {
+    double gain = 0;
+    for (auto k = static_cast<Eigen::Index>(bodies_.size()); k < things.capacity.size(); ++k)
+      if (things.capacity[k] > 0) gain += things.capacity[k] * changes.temperature[k];
+    return gain;
+  }
   void addBody(std::size_t m, const Index<D>& cell, ice::WarmThings<Most>& things) const {
     const double inverse = 1 / patch_.level().cellVolume();
     double heat = 0;
