@@ -71,13 +71,15 @@ class Conservation(ConservationTest):
                 "<add_heat_t_start>0</add_heat_t_start><add_heat_t_final>9</add_heat_t_final>")
         heated = changed(text, ('<advection type="SecondOrder"/>',
                                 '<advection type="SecondOrder"/>' + f"<ADD_HEAT>{tags}</ADD_HEAT>"))
-        names = ("GasEnergy", "GasKineticEnergy", "KineticEnergy", "GasHeatToBodies", *rates)
+        names = ("GasEnergy", "GasKineticEnergy", "KineticEnergy", "GasHeatToBodies", *rates, "TotalEnergy")
         scene = self.scene(also(heated, *names))
         rows = list(zip(*globals_of(scene, *names, sets=("Time/maxTime=0.2",)).values()))
         first, last = ([gas[1] - of_gas[1] + kinetic[1] + heat[1] for gas, of_gas, kinetic, heat, *_ in rows][k]
                        for k in (0, -1))
         time = rows[-1][0][0]
         gained = time * sum(rate * mass[1] for rate, mass in zip(rates.values(), rows[0][4:]))
+        whole = [row[-1][1] for row in rows]  # with the heat of bodies that exchange heat
+        self.assertAlmostEqual(whole[-1] - whole[0], gained, delta=1e-12 * whole[-1])
         self.assertGreater(gained, .05 * first)
         self.assertAlmostEqual(last - first, gained, delta=1e-12 * last)
 
