@@ -8,6 +8,11 @@
 
 namespace tushar::grid {
 
+/// Whether a patch may have nodes on a side; costs less than to look up the conditions of the side.
+inline bool mayTouchSide(const Patch& patch, int kernelAxis, int side) {
+  return patch.isAtBoundary(kernelAxis, side) || patch.level().boxes();
+}
+
 /// Calls `visit(nodes)` for boxes of nodes on a side, which have no nodes in common.
 template <class Visit>
 void forEachBoxOnSide(const Patch& patch, int kernelAxis, int side, Visit&& visit) {

@@ -9,6 +9,7 @@ template <int D>
 void setTemperature(const Patch& patch, int material, NodeView<double> field) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
+      if (!grid::mayTouchSide(patch, d, side)) continue;
       const auto given = patch.level().boundary(d, side, boundary::temperature, material);
       if (!given) continue;
       const Index<D> inwards = side == 0 ? Index<D>::unit(d) : Index<D>{} - Index<D>::unit(d);

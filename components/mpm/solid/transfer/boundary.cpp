@@ -9,7 +9,7 @@ template <int D>
 void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
-      if (!patch.level().isSymmetry(d, side, material)) continue;
+      if (!grid::mayTouchSide(patch, d, side) || !patch.level().isSymmetry(d, side, material)) continue;
       const auto at = [&](const Index3& node) -> NodeRecord& { return record.values()[record.stored().offset(node)]; };
       grid::forEachBoxOnSide(patch, d, side, [&](const Box& nodes) {
         rows.forEachRow(nodes.intersect(record.box()), [&](Index3 node, int end) {
@@ -35,6 +35,7 @@ template <int D>
 void setVelocity(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
+      if (!grid::mayTouchSide(patch, d, side)) continue;
       const auto given = patch.level().boundary(d, side, boundary::velocity, material);
       if (!given || !given->isDirichlet()) continue;
       const Vec<D> value = patch.level().reduce<D>(given->value);

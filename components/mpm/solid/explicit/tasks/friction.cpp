@@ -8,7 +8,7 @@ template <int D>
 void mirrorSurface(const Patch& patch, const Material& material, NodeView<SurfaceRecord> surface) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1})
-      if (patch.level().isSymmetry(d, side, material.index))
+      if (grid::mayTouchSide(patch, d, side) && patch.level().isSymmetry(d, side, material.index))
         grid::forEachBoxOnSide(patch, d, side, [&](const Box& nodes) {
           forEach<D>(nodes, [&](const Index<D>& node) {
             surface[node].numbers()[d] = 0;

@@ -30,7 +30,8 @@ Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k)
   const int material = nodes.leader[k];
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1})
-      if (patch.level().isSymmetry(d, side, material) && grid::isOnSide<D>(patch, d, side, nodes.node[k]))
+      if (grid::mayTouchSide(patch, d, side) && patch.level().isSymmetry(d, side, material) &&
+          grid::isOnSide<D>(patch, d, side, nodes.node[k]))
         normal[d] = 0;
   const double length = normal.norm();
   return length > 0 ? Vec<D>(normal / length) : normal;
