@@ -33,7 +33,11 @@ template <int D>
 class BoundedDiffusion {
  public:
   BoundedDiffusion(const Level& level, const Settings& settings, const GasInCells<D>& cells, double diffusivityAtStart)
-      : settings_(settings), cells_(cells), bound_(level, diffusivityAtStart) {}
+      : gas_(settings.gas.gas),
+        uniform_(settings.diffusion.alone.uniform),
+        cells_(cells),
+        bound_(level, diffusivityAtStart),
+        thin_(uniform_.greatest(gas_, bound_.always())) {}
 
   /// The cells of a box whose gas is so thin that its diffusivities may be bounded.
   std::vector<Index<D>> thinCells(const Box& box) const {
@@ -44,29 +48,24 @@ class BoundedDiffusion {
     return thin;
   }
   /// The coefficients at a face between two cells.
-  euler::Diffusion between(const Index<D>& cell, const Index<D>& next) const {
-    const euler::Diffusion one = in(cell), other = in(next);
-    return {std::min(one.viscosity, other.viscosity), std::min(one.conductivity, other.conductivity)};
-  }
+  euler::Diffusion between(const Index<D>& cell, const Index<D>& next) const { return in(cell).least(in(next)); }
 
  private:
   bool isThin(const Index<D>& cell) const {
-    return !cells_.isEmpty(cell) && uniform().greatest(gas(), density(cell)) > bound_.always();
+    return cells_.held.density[cell] < thin_ * cells_.free[cell] && !cells_.isEmpty(cell);
   }
-  const euler::Gas& gas() const { return settings_.gas.gas; }
-  const euler::Diffusion& uniform() const { return settings_.diffusion.alone.uniform; }
-  double density(const Index<D>& cell) const { return cells_.held.density[cell] / cells_.free[cell]; }
   euler::Diffusion in(const Index<D>& cell) const {
-    if (!isThin(cell)) return uniform();
-    const euler::State<D> w = cells_.primitive(gas(), cell);
-    const double rho = w[euler::kDensity], c = std::sqrt(gas().soundSpeedSquared(rho, w[euler::kPressure<D>]));
-    const double most = rho * bound_.at(c);
-    return {std::min(uniform().viscosity, 0.75 * most), std::min(uniform().conductivity, gas().specificHeat * most)};
+    if (!isThin(cell)) return uniform_;
+    const euler::State<D> w = cells_.primitive(gas_, cell);
+    const double rho = w[euler::kDensity], c = std::sqrt(gas_.soundSpeedSquared(rho, w[euler::kPressure<D>]));
+    return uniform_.least(euler::Diffusion::ofDiffusivity(bound_.at(c), gas_.specificHeat, rho));
   }
 
-  const Settings& settings_;
+  const euler::Gas& gas_;
+  const euler::Diffusion& uniform_;
   const GasInCells<D>& cells_;
   DiffusivityBound bound_;
+  double thin_;  ///< density below which diffusivities, which rise as it falls, may be bounded [kg/m³]
 };
 
 /// Finds the largest diffusivity of the gas on a patch [m²/s].
@@ -75,8 +74,7 @@ void measureDiffusivity(const Patch& patch, const Settings& settings, const GasI
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (cells.isEmpty(cell)) return;
     const euler::DiffusingCell<D> one = diffusingAt<D>(patch.level(), settings, cells, cell);
-    const double heat = one.how.conductivity > 0 ? one.how.conductivity / one.specificHeat : 0;
-    greatest.add(std::max(4.0 / 3 * one.how.viscosity, heat) / one.density);
+    greatest.add(one.how.greatest(one.specificHeat, one.density));
   });
 }
 

@@ -47,9 +47,9 @@ enum class Diffusivities { asGiven, bounded };
 
 /// Computes the diffusive fluxes of blocks of cells with variable viscosity and conductivity. The coefficients at a
 /// face are the means of those of the cells on both sides or, if diffusivities are bounded, at most those of the cell
-/// with the smaller bound. The subgrid model adds rho (C Delta)² sqrt(2 S : S) to the
-/// viscosity, where S is the symmetric part of grad v at the face, and Delta the cube root of a cell's volume. Source:
-/// J. Smagorinsky, Mon. Weather Rev. 91 (1963) 99.
+/// with the smaller bound. The subgrid model adds rho (C Delta)² sqrt(2 S : S) to the viscosity, where S is the
+/// symmetric part of grad v at the face, and Delta the cube root of a cell's volume. Source: J. Smagorinsky, Mon.
+/// Weather Rev. 91 (1963) 99.
 template <int D>
 class Diffuser {
  public:
@@ -84,7 +84,7 @@ class Diffuser {
       coefficients[density] = one.density;
       store<D>(w_.at(cell), 0, one.w);
       store<D>(coefficients_.at(cell), 0, coefficients);
-      if (most_) store<D>(most_->at(cell), 0, mostOf(one));
+      if (most_) storeMost(cell, one);
     });
     fillBeyondGrid<D>(level_, rules_, w_);
     fillBeyondGrid<D>(level_, mirrors_, coefficients_);
@@ -113,9 +113,7 @@ class Diffuser {
     };
     Diffusion here{mean(viscosity), mean(conductivity)};
     if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain();
-    if (!most_) return here;
-    const auto least = [&](std::size_t k) { return std::min(most_->number(below, k), most_->number(face, k)); };
-    return {std::min(here.viscosity, least(viscosity)), std::min(here.conductivity, least(conductivity))};
+    return most_ ? here.least(mostAt(below)).least(mostAt(face)) : here;
   }
   /// The rates at which a cell is crossed: sum_d (|v_d| + k c) / h_d by the flow, and sum_d (nu_below + nu_above) /
   /// h_d² by diffusion. Here nu is the largest diffusivity at a face, and k = `soundSpeedKnob` the fraction of the
@@ -126,9 +124,8 @@ class Diffuser {
       const double perWidth = level_.inverseSpacing(d);
       rate.byFlow += (std::abs(here.w[kVelocity(d)]) + soundSpeedKnob * here.soundSpeed) * perWidth;
       for (const Index<D>& face : {cell, cell + Index<D>::unit(d)}) {
-        const Diffusion how = atFace(face, d);
-        const double heat = how.conductivity > 0 ? how.conductivity / here.specificHeat : 0;
-        rate.byDiffusion += std::max(4.0 / 3 * how.viscosity, heat) / here.density * perWidth * perWidth;
+        const double diffusivity = atFace(face, d).greatest(here.specificHeat, here.density);
+        rate.byDiffusion += diffusivity * perWidth * perWidth;
       }
     }
     return rate;
@@ -138,14 +135,19 @@ class Diffuser {
   /// Indices of a cell's coefficients.
   enum : std::size_t { viscosity, conductivity, density };
 
-  /// The largest viscosity and conductivity at the faces of a cell; infinite for a cell without gas.
-  static State<D> mostOf(const DiffusingCell<D>& cell) {
+  /// Stores the largest viscosity and conductivity at the faces of a cell; infinite for a cell without gas.
+  void storeMost(const Index<D>& at, const DiffusingCell<D>& cell) {
     State<D> most;
     most.fill(std::numeric_limits<double>::infinity());
-    if (!(cell.density > 0)) return most;
-    most[viscosity] = 0.75 * cell.density * cell.mostDiffusivity;
-    most[conductivity] = cell.specificHeat * cell.density * cell.mostDiffusivity;
-    return most;
+    if (cell.density > 0) {
+      const auto bound = Diffusion::ofDiffusivity(cell.mostDiffusivity, cell.specificHeat, cell.density);
+      most[viscosity] = bound.viscosity;
+      most[conductivity] = bound.conductivity;
+    }
+    store<D>(most_->at(at), 0, most);
+  }
+  Diffusion mostAt(const Index<D>& cell) const {
+    return {most_->number(cell, viscosity), most_->number(cell, conductivity)};
   }
   /// Strain rate sqrt(2 S : S) at a face [1/s].
   double strain(const Index<D>& face, int axis) const {
