@@ -50,7 +50,11 @@ class HeatExchange {
  public:
   HeatExchange(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
-      : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {}
+      : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {
+    const auto isStiffened = [](const euler::Settings& one) { return one.gas.pInfinity > 0; };
+    are_stiffened_together_ =
+        !areBlended(settings) && std::any_of(settings.gases.begin(), settings.gases.end(), isStiffened);
+  }
 
   /// Exchanges heat in a cell, and adds heat from outside. Returns the heat that the gas loses to bodies, per cell
   /// volume [J/m³].
@@ -66,14 +70,11 @@ class HeatExchange {
     const int present = things.present();
     if (present < 2) return 0;
     const auto changes = ice::changesByHeat(things, settings_.heat, dt);
-    double given = 0;
     for (std::size_t m = 0; m < bodies; ++m) {
       if (!(things.capacity[m] > 0)) continue;
-      const double change = changes.temperature[m];
-      if (present > solid) given += things.capacity[m] * change;
-      for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
+      for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += changes.temperature[m];
     }
-    if (present > solid && knowsHeatOfGas()) given = things.given.sum() - gainOfGas(things, changes);
+    const double given = solid > 0 && present > solid ? heatToBodies(things, changes) : 0;
     gas_.totalEnergy[cell] -= given;
     if (present > solid && !settings_.gases.empty() && !areBlended(settings_))
       ice::changeShares(changes, first, gas_.free[cell],
@@ -82,18 +83,18 @@ class HeatExchange {
   }
 
  private:
-  /// Whether the heat that gases gain is m c_v dT alone. Then, it is better known than what bodies lose, whose
-  /// round-off may exceed all heat of a trace of gas. Stiffened gases that share a cell also gain p_inf dV.
-  bool knowsHeatOfGas() const {
-    return areBlended(settings_) || std::all_of(settings_.gases.begin(), settings_.gases.end(),
-                                                [](const auto& one) { return one.gas.pInfinity == 0; });
-  }
-  /// Heat that the gases gain from bodies and from outside [J/m³].
-  double gainOfGas(const ice::WarmThings<Most>& things, const ice::HeatChanges<Most>& changes) const {
-    double gain = 0;
-    for (auto k = static_cast<Eigen::Index>(bodies_.size()); k < things.capacity.size(); ++k)
-      if (things.capacity[k] > 0) gain += things.capacity[k] * changes.temperature[k];
-    return gain;
+  /// The heat that bodies receive from gases [J/m³]. It is better known from what the gases gain, because the round-off
+  /// of the heat of bodies may exceed all heat of a trace of gas. Stiffened gases that share a cell are the exception:
+  /// they gain p_inf dV in addition to m c_v dT.
+  double heatToBodies(const ice::WarmThings<Most>& things, const ice::HeatChanges<Most>& changes) const {
+    const auto gained = [&](Eigen::Index from, Eigen::Index end) {
+      double sum = 0;
+      for (Eigen::Index k = from; k < end; ++k)
+        if (things.capacity[k] > 0) sum += things.capacity[k] * changes.temperature[k];
+      return sum;
+    };
+    const auto bodies = static_cast<Eigen::Index>(bodies_.size());
+    return are_stiffened_together_ ? gained(0, bodies) : things.given.sum() - gained(bodies, things.capacity.size());
   }
   void addBody(std::size_t m, const Index<D>& cell, ice::WarmThings<Most>& things) const {
     const double inverse = 1 / patch_.level().cellVolume();
@@ -154,6 +155,7 @@ class HeatExchange {
   const Settings& settings_;
   const HeatedGas<D>& gas_;
   const std::vector<WarmBodies>& bodies_;
+  bool are_stiffened_together_;  ///< whether several gases share cells, one of which is stiffened
 };
 
 /// Exchanges heat between bodies and gases. Particles belong to the cell in which they started the step.
