@@ -244,7 +244,6 @@ class FaceFlow : public GasBefore<D, K> {
   /// The decrease of u_f per increase of the pressure in the cell above the face [m/(s Pa)]. It equals the increase of
   /// u_f per increase of the pressure in the cell below. The pressure beyond a side does not change.
   double loss(const Index<D>& face, int axis) const {
-    if (!this->isOnSide(face, axis)) return dt_ * this->level().inverseSpacing(axis) / this->density(face, axis);
     if (!this->isOpen(face, axis)) return this->mobility(face, axis, dt_);
     const OpenSide side = openSide(face, axis);
     return side.lightness * side.push / (side.push + side.lightness);
