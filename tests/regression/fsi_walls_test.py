@@ -32,7 +32,7 @@ class Walls(unittest.TestCase):
 
 class TracesOfGas(SceneTest):
     def test_beside_a_body_take_no_round_off_of_its_heat(self):
-        """The body leaves a wall; the heat in its cells is 1e25 times that of the gas behind it."""
+        """The body leaves a wall, with far more heat in its cells than the gas behind it."""
         sets = (*leaving("[0.8,0,0]", 0), HEAT)
         warm = "</constitutive_model><specific_heat>1000</specific_heat><thermal_conductivity>0</thermal_conductivity>"
         text = changed(text_of(sets), ("</constitutive_model>", warm))
