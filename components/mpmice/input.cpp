@@ -125,6 +125,18 @@ void checkMomentum(const ice::GasScene& scene, int solids, bool areRigid, const 
                            "other, as there is none");
 }
 
+/// Tells of contacts in which bodies stay together under compression: in a gas, they may part.
+void noteContacts(const Element& root, Diagnostics& diagnostics) {
+  for (const Element& contact : root.child("MaterialProperties")->child("MPM")->children("contact")) {
+    const auto type = contact.child("type");
+    const std::string kind = type ? std::string(type->text()) : "";
+    if (kind == "friction" || kind == "friction_bard" || kind == "friction_conserving")
+      diagnostics.note(*type, fmt::format("'{}' lets bodies part under compression, like 'approach': in a gas, its "
+                                          "pressure compresses surfaces that do not touch",
+                                          kind));
+  }
+}
+
 /// The coefficients of heat exchange; none if the scene does not give one for each pair, or if a body has no specific
 /// heat.
 ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gases, const Element& root,
@@ -289,6 +301,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   settings.burning = burningOf(scene, areRigid, root, diagnostics);
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);
+  noteContacts(root, diagnostics);
   if (!settings.thinWalls) noteThinBodies(bodies.materials, root, diagnostics);
   if (diagnostics.size() > before) return {};
   return [settings, make = bodies.make](const Level& level) -> std::unique_ptr<Component> {

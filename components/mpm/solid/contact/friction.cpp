@@ -153,7 +153,8 @@ void applyFriction(const Patch& patch, const Contact& contact, double dt, const 
     if (skipsOutside && !level.isNodeInside<D>(node)) return;
     const Gathering<D> all = gatherBodies<D>(bodies, records, surfaces, node);
     if (all.normal.isZero() || all.volume <= leastVolume) return;
-    const bool together = contact.keepsMomentum && arePressed<D>(level, contact, records, surfaces, all, node);
+    const bool together =
+        contact.keepsMomentum && !contact.onlyOnApproach && arePressed<D>(level, contact, records, surfaces, all, node);
     for (const std::size_t m : bodies) {
       NodeRecord& record = records[m][node];
       const double mass = record[lane::mass], others = all.mass - mass;

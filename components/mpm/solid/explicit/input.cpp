@@ -333,6 +333,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
     contact.actsTwice = contact.actsTwice || (read.xpic && contact.type != Contact::Type::planeFriction);
     contact.normalsInCells = read.axisymmetric;
     contact.oneNormal = read.oneNormal;
+    if (besideGas) contact.onlyOnApproach = true;  // the pressure of the gas compresses surfaces that do not touch
     if (contact.hasMaster()) problem.materials[contact.master].isRigid = true;  // as in Uintah
   }
   problem.method.thermalContact = properties.mpm.thermalContact.has_value();
@@ -347,12 +348,11 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   settleGrains(problem, {read.isGranular, besideGas}, root, diagnostics);
   checkHeat(problem, root, diagnostics);
   checkProblem(problem, root, diagnostics);
-  for (const Material& material : problem.materials) {
+  for (const Material& material : problem.materials)
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
                         "needs the constitutive model cnh_mms, but '" + material.name + "' is " +
                             std::string(material.model->name()));
-  }
   if (diagnostics.size() > before) return {};
   return ReadSolids{read.interpolator, std::move(problem), root.child("MPM").value_or(root).where()};
 }
