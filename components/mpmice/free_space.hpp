@@ -48,13 +48,14 @@ Index<D> nearestOnGrid(const Level& level, Index<D> cell) {
 
 /// The space available to the gas: the free volumes of cells and the open fractions of faces, which bodies leave.
 ///
-/// A face that is not completely open has a wall on the rest of its area. Along each axis, a cell has the same area,
-/// open and wall together, on both sides, so that a gas at rest exerts no force.
+/// A face is open if there is gas on both sides or, if the gas can expand without limit (Settings::fillsVacuum), on one
+/// side. A face that is not completely open has a wall on the rest of its area. Along each axis, a cell has the same
+/// area, open and wall together, on both sides, so that a gas at rest exerts no force.
 template <int D>
 class FreeSpace {
  public:
   FreeSpace(const Level& level, const Settings& settings, const GasInCells<D>& cells)
-      : level_(&level), thin_walls_(settings.thinWalls), cells_(cells) {}
+      : level_(&level), thin_walls_(settings.thinWalls), fills_vacuum_(settings.fillsVacuum()), cells_(cells) {}
 
   /// Measures the open fractions of faces near bodies all at once, for tasks that ask for them often.
   void measure(const NearBodies<D>& near);
@@ -66,6 +67,12 @@ class FreeSpace {
     return side == 0 ? cell[axis] == level_->cells().lower[axis] : cell[axis] == level_->cells().upper[axis] - 1;
   }
 
+  /// Whether there are cells of the grid on both sides of the lower face of a cell.
+  bool isInGrid(const Index<D>& cell, int axis) const {
+    return level_->isPeriodic(axis) ||
+           (cell[axis] > level_->cells().lower[axis] && cell[axis] < level_->cells().upper[axis]);
+  }
+
   /// The cell itself or, if it is outside the grid, the nearest cell on the grid.
   Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(*level_, cell); }
 
@@ -74,16 +81,14 @@ class FreeSpace {
     if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : roomOf(cells_.free[cell]);
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
     if (measured_.contains(above)) return open_[axis][offsetIn<D>(measured_, above)];
-    if (isEmpty(below) || isEmpty(above)) return 0;
+    if (!mayPass(below, above)) return 0;
     return openShare(cells_.coverage[above][axis], roomOf(cells_.free[below]), roomOf(cells_.free[above]), thin_walls_);
   }
   /// Whether bodies leave the lower face of a cell and the cells on both sides of it completely free, so that the face
   /// has no wall. Faces on sides of the grid, or beyond, are never reported as open.
   bool isOpen(const Index<D>& cell, int axis) const {
     const Index<D> below = cell - Index<D>::unit(axis);
-    if (!level_->isPeriodic(axis) &&
-        (cell[axis] <= level_->cells().lower[axis] || cell[axis] >= level_->cells().upper[axis]))
-      return false;
+    if (!isInGrid(cell, axis)) return false;
     const bool isCovered = 1 - cells_.coverage[cell][axis] < 1;  // by more than round-off, as in openShare
     return isWhole(below) && isWhole(cell) && !isCovered;
   }
@@ -129,11 +134,19 @@ class FreeSpace {
  private:
   bool isWhole(const Index<D>& cell) const { return !(cells_.free[cell] < 1) && cells_.held.density[cell] > 0; }
 
-  /// Stands for the room in a cell without gas.
-  static constexpr double closed = -1;
+  /// Whether gas may pass between two cells, if bodies leave an opening.
+  bool mayPass(const Index<D>& below, const Index<D>& above) const {
+    const bool isGasBelow = !isEmpty(below), isGasAbove = !isEmpty(above);
+    if (isGasBelow && isGasAbove) return true;
+    return fills_vacuum_ && isGasBelow != isGasAbove && !(cells_.free[isGasBelow ? above : below] < leastFreeVolume);
+  }
+
+  /// Stands for the room in a cell that no gas may enter. The room in a cell without gas that gas may enter has a
+  /// negative sign.
+  static constexpr double closed = -2;
 
   const Level* level_;
-  bool thin_walls_;
+  bool thin_walls_, fills_vacuum_;
   GasInCells<D> cells_;
   Box measured_;  ///< the cells whose lower faces are measured
   /// The open fractions of these faces along each axis.
@@ -152,10 +165,11 @@ void FreeSpace<D>::measure(const NearBodies<D>& near) {
   forEachRow<D>(around, [&](const Index<D>& first, int count) {
     const double *free = &cells_.free[first], *mass = &cells_.held.density[first];
     double* room = &rooms[offsetIn<D>(around, first)];
+    const double entered = fills_vacuum_ ? -1 : 0, shut = fills_vacuum_ ? 0 : closed;
 #pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
-      const double open = free[i] < leastFreeVolume ? closed : roomOf(free[i]);
-      room[i] = mass[i] > 0 ? open : closed;
+      const double own = roomOf(free[i]), open = mass[i] > 0 ? own : shut + entered * own;
+      room[i] = free[i] < leastFreeVolume ? closed : open;
     }
   });
   for (auto& ofAxis : open_) ofAxis.resize(measured_.size());
@@ -168,8 +182,9 @@ void FreeSpace<D>::measure(const NearBodies<D>& near) {
       const bool thin = thin_walls_;
 #pragma GCC ivdep
       for (int i = 0; i < count; ++i) {
-        const double share = openShare(covered[i * D + d], below[i], above[i], thin);
-        open[i] = std::min(below[i], above[i]) < 0 ? 0.0 : share;
+        const double share = openShare(covered[i * D + d], std::abs(below[i]), std::abs(above[i]), thin);
+        const bool hasGas = std::max(below[i], above[i]) >= 0, mayPass = std::min(below[i], above[i]) > closed;
+        open[i] = hasGas & mayPass ? share : 0.0;
       }
     }
   });

@@ -56,6 +56,10 @@ struct Settings {
   std::vector<ice::Reaction> reactions = {};      ///< reactions by which one gas becomes another
   std::optional<Burning> burning = {};            ///< the body that burns, if any
   std::vector<ice::ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
+
+  /// Whether gas flows into space that bodies leave empty: a single ideal gas in explicit steps, which expands without
+  /// limit.
+  bool fillsVacuum() const { return !implicit && gases.empty() && !gas.gas.law && gas.gas.pInfinity == 0; }
 };
 
 /// The amount by which thresholds for free volumes differ from round fractions. Bodies that are aligned with cells

@@ -61,6 +61,8 @@ class WallExchange {
   /// The rules for ghost states beyond the sides of the grid.
   const euler::GhostRules<D>& rules() const { return rules_; }
   const FreeSpace<D>& space() const { return space_; }
+  /// Whether gas flows into cells that bodies leave empty.
+  bool fillsVacuum() const { return settings_.fillsVacuum(); }
   /// Open fraction of the lower face of a cell. The cell may be just beyond an upper side of the grid.
   double openShareOf(const NearBodies<D>& near, const Index<D>& cell, int axis) const {
     if (!near(cell)) return 1;

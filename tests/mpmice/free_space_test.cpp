@@ -70,7 +70,8 @@ TYPED_TEST(FreeSpaceAlongAxes, IsTheSameIfMeasuredAtOnce) {
   Cube<D> cube;
   for (const bool thinWalls : {false, true}) {
     cube.settings.thinWalls = thinWalls;
-    const GasFields<D> fields = porous<D>(cube.level);
+    GasFields<D> fields = porous<D>(cube.level);
+    for (std::size_t k = 0; k < fields.density.values.size(); k += 3) fields.density.values[k] = 0;
     const FreeSpace<D> one(cube.level, cube.settings, fields.gas());
     FreeSpace<D> all = one;
     all.measure(NearBodies<D>(cube.level.cells(), nearLayers, fields.free.seen(), fields.density.seen()));
@@ -97,6 +98,28 @@ TYPED_TEST(FreeSpaceAlongAxes, IsClosedBesideEmptyCellsAndOpenWhereNoBodyIs) {
         EXPECT_EQ(space.faces(cell, d).wall(side), isClosed && !(cell == empty) ? 1 : 0);
       }
   });
+}
+
+TYPED_TEST(FreeSpaceAlongAxes, IsOpenToVacuumsOnlyIfTheGasExpandsWithoutLimit) {
+  constexpr int D = TypeParam::value;
+  Cube<D> cube;
+  GasFields<D> fields(cube.level.cells());
+  const Index<D> vacuum = Index<D>::filled(3), next = vacuum + Index<D>::unit(0);
+  fields.density.cells()[vacuum] = fields.density.cells()[next] = 0;
+  const NearBodies<D> near(cube.level.cells(), nearLayers, fields.free.seen(), fields.density.seen());
+  for (const double liquid : {0.0, 1.0}) {
+    cube.settings.gas.gas.pInfinity = liquid;
+    const FreeSpace<D> one(cube.level, cube.settings, fields.gas());
+    FreeSpace<D> all = one;
+    all.measure(near);
+    for (const FreeSpace<D>& space : {one, all}) {
+      EXPECT_EQ(space.aperture(vacuum, 0, 0), liquid > 0 ? 0 : 1);
+      EXPECT_EQ(space.aperture(next, 0, 1), liquid > 0 ? 0 : 1);
+      EXPECT_EQ(space.aperture(next, 0, 0), 0);
+      EXPECT_EQ(space.faces(vacuum - Index<D>::unit(0), 0).wall(1), liquid > 0 ? 1 : 0);
+      EXPECT_EQ(space.faces(vacuum, 0).area, 0);
+    }
+  }
 }
 
 TYPED_TEST(FreeSpaceAlongAxes, HasANormalIntoABodyAcrossAnyPlane) {

@@ -9,6 +9,7 @@ import gas_and_bodies as fsi
 from fsi_test import ConservationTest, changed, saving
 from same_bits import SameBitsTest
 from solids import SceneTest, archive_of, columns, globals_of
+from sus import run
 
 PISTON, DISC = (fsi.scene(name).read_text() for name in ("moving_piston", "carried_disc"))
 CONTACT = "<contact><type>null</type></contact>"
@@ -32,6 +33,17 @@ DISCS = with_second_body(
     saving(DISC, *ConservationTest.KEPT, "GasWorkOnBodies"), ((">1000<", ">10<"),),
     ((">1000<", ">100<"), ('name="disc"', 'name="heavy"'), ('label="disc"', 'label="second"'),
      ("[1,0.618,0]", "[-1,0.3,0]"), ("[0.5,0.5,", "[0.62,0.47,")))
+# Two blocks that touch, and part in a gas at rest. The space between them is a vacuum at first.
+BLOCKS = changed(
+    with_second_body(
+        changed(DISC, ("<cylinder", "<box"), ("</cylinder>", "</box>"), ("<radius>0.2</radius>", ""),
+                ("<bottom>[0.5,0.5,-1]</bottom><top>[0.5,0.5,1]</top>", "<min>[0.3,0.3,0]</min><max>[0.5,0.7,1]</max>"),
+                ("<velocity>[1,0.618,0]", "<velocity>[0,0,0]"), ("<density>0.2<", "<density>1<"), ("<temperature>5<", "<temperature>1<"),
+                (">1000<", ">50<")),
+        (("<velocity>[0,0,0]", "<velocity>[-1,0,0]"),),
+        (("<velocity>[0,0,0]", "<velocity>[1,0,0]"), ('name="disc"', 'name="right"'), ('label="disc"', 'label="right"'),
+         ("[0.3,0.3,0]</min><max>[0.5,", "[0.5,0.3,0]</min><max>[0.7,"))),
+    ('<save label="c.density"/>', '<save label="c.density"/><save label="LeastGasHeat"/><save label="TotalMass"/>'))
 
 
 class Walls(SceneTest):
@@ -40,6 +52,32 @@ class Walls(SceneTest):
         found = columns(archive_of(scene, scene.parent, "Time/maxTime=0.05"), "c.pressure")
         left = [p for x, p in zip(found["x [m]"], found["c.pressure [Pa]"]) if x < .98]
         self.assertLess(max(abs(p - 1) for p in left), 1e-12)
+
+
+class Parting(SceneTest):
+    SETS = fsi.resolution("carried_disc", 50)
+
+    def test_of_blocks_lets_gas_into_the_vacuum_between_them(self):
+        scene = self.scene(BLOCKS)
+        archive = archive_of(scene, scene.parent, *self.SETS, "Time/maxTime=0.15")
+        found = columns(archive, "c.density", "c.freeVolume")
+        free = [rho for rho, room in zip(found["c.density [kg/m^3]"], found["c.freeVolume [1]"]) if room > .5]
+        self.assertGreater(min(free), 1e-6)
+        totals = globals_of(scene, "LeastGasHeat", "TotalMass", sets=(*self.SETS, "Time/maxTime=0.15"))
+        self.assertGreaterEqual(min(row[1] for row in totals["LeastGasHeat"]), 0)
+        masses = [row[1] for row in totals["TotalMass"]]
+        self.assertLess(max(masses) - min(masses), 1e-13 * masses[0])
+
+    def test_of_blocks_is_not_held_up_by_friction(self):
+        """Gas compresses the surfaces on both sides of a gap, so their stress does not tell whether they touch."""
+        prints = set()
+        for kind in ("null", "friction", "friction_conserving"):
+            contact = CONTACT if kind == "null" else f"<contact><type>{kind}</type><mu>0.2</mu></contact>"
+            scene = self.scene(BLOCKS.replace(CONTACT, contact))
+            told = run(scene, options=("--check",)).err
+            self.assertEqual("lets bodies part under compression" in told, kind != "null", told)
+            prints.add(run(scene, *self.SETS, "Time/maxTime=0.05").report["fingerprint"])
+        self.assertEqual(len(prints), 1)
 
 
 class Conservation(ConservationTest):
@@ -56,6 +94,10 @@ class Bits(SameBitsTest, SceneTest):
     def test_are_the_same_around_two_discs(self):
         self.assert_same(self.scene(DISCS), 40, ("[1,1,1]", "[5,3,1]", "[4,4,1]"),
                          *fsi.resolution("carried_disc", 32), ranks=3)
+
+    def test_are_the_same_around_a_vacuum(self):
+        self.assert_same(self.scene(BLOCKS), 80, ("[1,1,1]", "[5,3,1]", "[4,4,1]"),
+                         *fsi.resolution("carried_disc", 50), ranks=3)
 
 
 if __name__ == "__main__":

@@ -56,6 +56,7 @@ class DiffusionBeside {
   }
   /// The open fraction of a face, limited so that a stable step does not overshoot.
   double openFor(const Index<D>& cell, const Index<D>& below, int axis) const {
+    if (space_.isEmpty(onGrid(cell)) || space_.isEmpty(onGrid(below))) return 0;
     const double open = isBeyond(cell, axis) ? space_.aperture(below, axis, 1) : space_.aperture(cell, axis, 0);
     return std::min(open, 2 * std::min(cells_.free[onGrid(cell)], cells_.free[onGrid(below)]));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpmice/vacuum_flux.hpp"
 #include "components/mpmice/wall_exchange.hpp"
 
 namespace tushar::mpmice {
@@ -29,7 +30,7 @@ struct UnsharedGas {
 };
 
 /// Computes rho, v, p of the gas in the cells of `w`. Cells without gas get an arbitrary gas at rest; it has no fluxes,
-/// because the faces of these cells are closed.
+/// because the faces of these cells are closed, or those of flowIntoVacuum.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D, euler::kGases<G>>& w) {
@@ -104,6 +105,8 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   Box faces = block;
   ++faces.upper[Axis];
   euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work, work.flux);
+  if constexpr (euler::kGases<G> == 1)
+    if (exchange.fillsVacuum()) flowIntoVacuum<D, Axis>(gas.gamma, exchange.space(), near, faces, work.w, work.flux);
   closeFaces<D>(level, exchange.space(), near, faces, Axis, work.flux);
   euler::keepAtRim<D>(fresh.rims, faces, Axis, work.flux);
   fresh.rims.masses.keep(block, Axis, work.flux);
