@@ -32,6 +32,10 @@ struct Given {
 /// The smallest fraction of its gas that a donor keeps, so that round-off makes no amount negative.
 inline constexpr double roundOffOfShares = 1e-12;
 
+/// The volume that follows walls, per cell volume, below which it is round-off: it would bring a trace of gas to one of
+/// two mirrored cells, and none to the other.
+inline constexpr double roundOffOfSweeps = 1e-15;
+
 /// Computes the exchange of the gas with walls in a step.
 template <int D>
 class WallExchange {
@@ -167,7 +171,8 @@ class WallExchange {
     const double by = step_.sweptBy[above][axis];
     const double shift =
         by == c::notSwept ? nodes_.speedsAt(above, axis).after * dt_ * level_.inverseSpacing(axis) : by;
-    return covered * shift - step_.swept[above][axis];
+    const double up = covered * shift - step_.swept[above][axis];
+    return std::abs(up) > roundOffOfSweeps ? up : 0;
   }
 
   /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and
