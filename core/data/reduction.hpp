@@ -91,12 +91,22 @@ struct Sum {
     double x = other.error;
     addExactly(error, x);
     rest += x + other.rest;
+    separate();
+  }
+  double total() const {
+    Sum parts = *this;
+    parts.separate();  // else, rounding the sum of the errors counts where they nearly cancel the value
+    return parts.value + (parts.error + parts.rest);
+  }
+  std::vector<double> values() const { return {total()}; }
+
+ private:
+  /// Makes each part the rounding error of the previous one, with the same exact sum.
+  void separate() {
     addExactly(error, rest);
     addExactly(value, error);
     addExactly(error, rest);
   }
-  double total() const { return value + (error + rest); }
-  std::vector<double> values() const { return {total()}; }
 };
 
 /// A sum of vectors with components x, y, z.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,28 @@ TEST(Sum, DoesNotDependOnTheOrder) {
     std::shuffle(values.begin(), values.end(), generator);
     EXPECT_EQ(sumOf(), first);
   }
+}
+
+TEST(Sum, DoesNotDependOnTheOrderIfTheTermsCancelButForAMillionthOfTheirRoundOff) {
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<double> size(0, 1);
+  std::vector<double> values;
+  for (int k = 0; k < 500; ++k) {
+    const double value = size(generator);
+    values.insert(values.end(), {value, -value * (1 + size(generator) * 1e-15), size(generator) * 1e-22});
+  }
+  Sum all;
+  for (const double value : values) all.add(value);
+  values.push_back(-all.total());
+
+  std::set<double> totals;
+  for (int k = 0; k < 50; ++k) {
+    std::shuffle(values.begin(), values.end(), generator);
+    Sum sum;
+    for (const double value : values) sum.add(value);
+    totals.insert(sum.total());
+  }
+  EXPECT_EQ(totals.size(), 1);
 }
 
 TEST(Sum, IsTheSameInLanes) {
