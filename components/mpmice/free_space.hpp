@@ -61,6 +61,10 @@ class FreeSpace {
   void measure(const NearBodies<D>& near);
 
   bool isEmpty(const Index<D>& cell) const { return cells_.isEmpty(cell); }
+  /// Whether a cell has no gas, but gas may flow in.
+  bool isVacuum(const Index<D>& cell) const {
+    return fills_vacuum_ && isEmpty(cell) && !(cells_.free[cell] < leastFreeVolume);
+  }
   /// Whether the lower (0) or upper (1) face of a cell is on a side of the grid.
   bool isAtSide(const Index<D>& cell, int axis, int side) const {
     if (level_->isPeriodic(axis)) return false;
@@ -137,8 +141,7 @@ class FreeSpace {
   /// Whether gas may pass between two cells, if bodies leave an opening.
   bool mayPass(const Index<D>& below, const Index<D>& above) const {
     const bool isGasBelow = !isEmpty(below), isGasAbove = !isEmpty(above);
-    if (isGasBelow && isGasAbove) return true;
-    return fills_vacuum_ && isGasBelow != isGasAbove && !(cells_.free[isGasBelow ? above : below] < leastFreeVolume);
+    return isGasBelow ? isGasAbove || isVacuum(above) : isGasAbove && isVacuum(below);
   }
 
   /// Stands for the room in a cell that no gas may enter. The room in a cell without gas that gas may enter has a

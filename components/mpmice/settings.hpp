@@ -57,9 +57,11 @@ struct Settings {
   std::optional<Burning> burning = {};            ///< the body that burns, if any
   std::vector<ice::ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
 
-  /// Whether gas flows into space that bodies leave empty: a single ideal gas in explicit steps, which expands without
-  /// limit.
-  bool fillsVacuum() const { return !implicit && gases.empty() && !gas.gas.law && gas.gas.pInfinity == 0; }
+  /// Whether gas flows into space that bodies leave empty: ideal gases in explicit steps, which expand without limit.
+  bool fillsVacuum() const {
+    const auto isIdeal = [](const euler::Settings& one) { return !one.gas.law && one.gas.pInfinity == 0; };
+    return !implicit && isIdeal(gas) && std::all_of(gases.begin(), gases.end(), isIdeal);
+  }
 };
 
 /// The amount by which thresholds for free volumes differ from round fractions. Bodies that are aligned with cells

@@ -81,6 +81,14 @@ class WallExchange {
       held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
   }
 
+  /// Expands the volumes of several gases that flowed into a cell without gas, so that they fill it.
+  void fillVacuum(const Index<D>& cell, const std::vector<CellView<double>>& volumes) const {
+    double sum = 0;
+    for (const auto& ofGas : volumes) sum += ofGas[cell];
+    for (std::size_t k = 0; k < volumes.size(); ++k)
+      volumes[k][cell] = step_.newFree[cell] * (sum > 0 ? volumes[k][cell] / sum : k == 0 ? 1.0 : 0.0);
+  }
+
   /// Adds to the content of a cell the effect of the walls at its faces, and the gas that flows in behind moving walls.
   /// Returns what the gas gives to the walls. Adds the mass of that gas to the masses through faces.
   Given<D> addTo(const Index<D>& cell, const euler::MixtureViews<D, double>& held,
@@ -196,9 +204,10 @@ class WallExchange {
     held.density[cell] += volume * gas->of.u[euler::kDensity];
     for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas->of.u[euler::kVelocity(d)];
     held.totalEnergy[cell] += volume * gas->of.u[euler::kPressure<D>];
+    const bool isVacuum = space_.isVacuum(cell);
     for (std::size_t k = 0; k < held.shares.size(); ++k) {
       held.masses[k][cell] += volume * gas->of.masses[k];
-      held.shares[k][cell] += volume * (gas->of.shares[k] - cells_.held.shares[k][cell]);
+      held.shares[k][cell] += volume * (gas->of.shares[k] - (isVacuum ? 0 : cells_.held.shares[k][cell]));
     }
   }
 

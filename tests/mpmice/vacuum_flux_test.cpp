@@ -32,10 +32,21 @@ TEST(FluxIntoVacuum, IsThatOfTheGasItselfIfThatIsFasterThanSound) {
   EXPECT_DOUBLE_EQ(flux[3], -2 * (2.5 + 1 + 0.5 * 4.25));
 }
 
+TEST(FluxIntoVacuum, CarriesEachOfSeveralGases) {
+  const euler::State<1, 2> gases{2, 0.5, 1.5, 0.4, 1.6, 0.3, 0.7};
+  const euler::State<1, 2> flux = fluxIntoVacuum<1, 0, 2>(gases, 1.4, 1);
+  const euler::State<1> together = fluxIntoVacuum<1, 0>({2, 0.5, 1.5}, 1.4, 1);
+  for (std::size_t k = 0; k < together.size(); ++k) EXPECT_EQ(flux[k], together[k]);
+  EXPECT_DOUBLE_EQ(flux[euler::kMass<1>(0)], 0.2 * flux[0]);
+  EXPECT_DOUBLE_EQ(flux[euler::kMass<1>(1)], 0.8 * flux[0]);
+  EXPECT_DOUBLE_EQ((flux[euler::kShare<1, 2>(0)] / flux[euler::kShare<1, 2>(1)]), 3.0 / 7);
+}
+
 TEST(FluxIntoVacuum, IsNothingIfTheGasRecedesFasterThanItExpands) {
   for (const double gamma : gammas) {
     const double escape = 2 / (gamma - 1) * std::sqrt(gamma);
     EXPECT_EQ((fluxIntoVacuum<1, 0>({1, -1.001 * escape, 1}, gamma, 1)), euler::State<1>{});
+    EXPECT_EQ((fluxIntoVacuum<1, 0, 2>({1, -1.001 * escape, 1, 0.5, 0.5, 1, 0}, gamma, 1)), (euler::State<1, 2>{}));
     EXPECT_GT((fluxIntoVacuum<1, 0>({1, -0.9 * escape, 1}, gamma, 1))[euler::kDensity], 0);
   }
 }

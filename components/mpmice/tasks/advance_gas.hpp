@@ -105,12 +105,13 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   Box faces = block;
   ++faces.upper[Axis];
   euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work, work.flux);
-  if constexpr (euler::kGases<G> == 1)
-    if (exchange.fillsVacuum()) flowIntoVacuum<D, Axis>(gas.gamma, exchange.space(), near, faces, work.w, work.flux);
+  if (exchange.fillsVacuum()) flowIntoVacuum<D, Axis>(gas, exchange.space(), near, faces, work.w, work.flux);
   closeFaces<D>(level, exchange.space(), near, faces, Axis, work.flux);
   euler::keepAtRim<D>(fresh.rims, faces, Axis, work.flux);
   fresh.rims.masses.keep(block, Axis, work.flux);
   euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh.held);
+  if constexpr (constexpr int K = euler::kGases<G>; K > 1)
+    addToVacuum<D, Axis, K>(exchange.space(), near, block, ratio, work.flux, fresh.held.shares);
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 
@@ -119,10 +120,13 @@ template <int D>
 void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
               const UnsharedGas<D>& fresh, const OfferedExchange<D>& offered, Sum& power) {
   if (!fresh.held.shares.empty())
-    near.forEachIn(block, [&](const Index<D>& cell) { exchange.fillRoom(cell, fresh.held); });
+    near.forEachIn(block, [&](const Index<D>& cell) {
+      if (!near.acts(cell) || !exchange.space().isVacuum(cell)) exchange.fillRoom(cell, fresh.held);
+    });
   near.forEachActingIn(block, [&](const Index<D>& cell) {
     const Given<D> given = exchange.addTo(cell, fresh.held, fresh.rims.masses);
     if (given.work != 0) power.add(given.work * perStep);
+    if (exchange.space().isVacuum(cell)) exchange.fillVacuum(cell, fresh.held.shares);
     if (offered.impulse) (*offered.impulse)[cell] = given.impulse;
     if (offered.work) (*offered.work)[cell] = given.work;
   });
