@@ -11,15 +11,18 @@ namespace {
 /// Patches per worker: several, so that a thread that finishes early can start another one.
 constexpr int patchesPerWorker = 4;
 
+/// What the beginning of a row of cells costs, in cells: patches that are short along x have more rows. Measured as 5
+/// to 15 with particles and finite volumes in two and three dimensions.
+constexpr int costOfRow = 8;
+
 double countOf(const Index3& cells) { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
 
-/// Cost of a division: the cells of the largest patch with one layer of ghosts at its cuts, times the number of
-/// patches.
+/// Cost of the largest patch of a division: its cells with one layer of ghosts at its cuts, and its rows.
 double costOf(const Index3& cells, const Index3& patches) {
   double cost = 1;
   for (int d = 0; d < 3; ++d) {
     const int largest = (cells[d] + patches[d] - 1) / patches[d];
-    cost *= static_cast<double>(patches[d]) * (largest + std::min(2, patches[d] - 1));
+    cost *= largest + std::min(2, patches[d] - 1) + (d == 0 ? costOfRow : 0);
   }
   return cost;
 }
@@ -49,7 +52,8 @@ Index3 choosePatches(const Index3& cells, int count) {
     for (int y = 1; y <= std::min(cells[1], most / x); ++y) {
       const int z = (wanted + x * y - 1) / (x * y);
       if (z > cells[2] || x * y * z > most) continue;
-      if (const double cost = costOf(cells, {{x, y, z}}); cost < least) {
+      const int turns = x * y * z == wanted ? wanted : most;  // if there are more than wanted, a worker has one more
+      if (const double cost = turns * costOf(cells, {{x, y, z}}); cost < least) {
         least = cost;
         best = {{x, y, z}};
       }

@@ -29,8 +29,8 @@ struct Workers {
 };
 
 /// The division of a grid of `cells` along x, y, z into about `count` patches: of all divisions into `count` to 1.25
-/// `count` patches, the one with the fewest cells and ghost cells in total, assuming that each patch is as large as the
-/// largest. Never more patches along an axis than cells. Along x, where memory is contiguous, the grid is divided last.
+/// `count` patches, the cheapest one, assuming that each patch is as large as the largest: cells, ghost cells, and rows
+/// of cells along x, where memory is contiguous, cost time. Never more patches along an axis than cells.
 Index3 choosePatches(const Index3& cells, int count);
 
 /// Parses a layout such as `4x2x1` (patches along x, y, z); returns none unless it consists of three positive integers.

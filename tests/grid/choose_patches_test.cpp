@@ -17,11 +17,18 @@ TEST(ChoosePatches, MakesAsManyAsAreWantedOrAQuarterMore) {
     }
 }
 
-TEST(ChoosePatches, MakesThemAsCubicAsTheGridAllowsAndCutsTheFirstAxisLast) {
-  EXPECT_EQ(choosePatches({{64, 64, 64}}, 8), (Index3{{2, 2, 2}}));
+TEST(ChoosePatches, HasFewGhostsButKeepsRowsLong) {
+  EXPECT_EQ(choosePatches({{64, 64, 64}}, 8), (Index3{{1, 2, 4}}));
   EXPECT_EQ(choosePatches({{64, 64, 64}}, 2), (Index3{{1, 1, 2}}));
-  EXPECT_EQ(choosePatches({{100, 100, 1}}, 16), (Index3{{4, 4, 1}}));
-  EXPECT_EQ(choosePatches({{1600, 100, 1}}, 16), (Index3{{16, 1, 1}}));
+  EXPECT_EQ(choosePatches({{64, 64, 64}}, 64), (Index3{{2, 4, 8}}));
+  EXPECT_EQ(choosePatches({{100, 100, 1}}, 16), (Index3{{2, 8, 1}}));
+  EXPECT_EQ(choosePatches({{1600, 100, 1}}, 16), (Index3{{8, 2, 1}}));
+  EXPECT_EQ(choosePatches({{1600, 1, 1}}, 16), (Index3{{16, 1, 1}}));
+}
+
+TEST(ChoosePatches, MakesMoreThanAreWantedOnlyIfThisPaysOffForTheWorkerThatHasOneMore) {
+  EXPECT_EQ(countOf(choosePatches({{57, 57, 57}}, 8)), 8) << "nine would have fewer ghosts";
+  EXPECT_EQ(choosePatches({{64, 64, 64}}, 7), (Index3{{1, 2, 4}})) << "seven planes would have many";
 }
 
 TEST(ChoosePatches, MakesNoMoreAlongAnAxisThanThereAreCells) {
