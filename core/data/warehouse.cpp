@@ -186,8 +186,11 @@ Buffer Warehouse::follow(Generation generation, int number, Generation set) {
     moved.slots = where.slots;
     return {};
   }
-  Buffer before = std::move(moved.memory);
-  moved.memory = Buffer();
+  return renew(generation, number, set);
+}
+
+Buffer Warehouse::renew(Generation generation, int number, Generation set) {
+  Buffer before = std::exchange(storage(generation, number).memory, Buffer());
   allocateParticles(generation, number, set);
   return before;
 }

@@ -138,6 +138,9 @@ class Warehouse {
   /// slots are kept; patches whose slots have changed get undefined values. If the variable gets new memory, returns
   /// the previous buffer, which the caller must release.
   Buffer follow(Generation generation, int number, Generation set);
+  /// Gives a particle variable new memory, with the slots of the sets of generation `set`; returns the previous buffer,
+  /// which the caller must release.
+  Buffer renew(Generation generation, int number, Generation set);
   /// The memory of a variable; `slots` gives the positions of the patches in it.
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }
   const SharedSlots& slots(Generation generation, int number) const;

@@ -32,29 +32,37 @@ inline void withSize(std::size_t bytes, Visit&& visit) {
 }
 
 /// Moves `run.count` elements of `bytes` bytes from index `run.from` to index `run.to`.
-template <class Run>
-inline void moveRun(const Run& run, const std::byte* from, std::byte* to, std::size_t bytes) {
+template <class Run, class Bytes>
+inline void moveRun(const Run& run, const std::byte* from, std::byte* to, Bytes bytes) {
+  constexpr int few = 4;  // so few elements are moved faster than memmove begins
   to += static_cast<std::size_t>(run.to) * bytes;
   from += static_cast<std::size_t>(run.from) * bytes;
+  const auto moveOne = [&](int k) {
+    std::memcpy(to + static_cast<std::size_t>(k) * bytes, from + static_cast<std::size_t>(k) * bytes, bytes);
+  };
   if (to == from) return;
-  if (run.count == 1)
-    withSize(bytes, [&](auto size) { std::memcpy(to, from, size); });
-  else
+  if (run.count > few)
     std::memmove(to, from, static_cast<std::size_t>(run.count) * bytes);
+  else if (run.to < run.from)
+    for (int k = 0; k < run.count; ++k) moveOne(k);
+  else
+    for (int k = run.count; k-- > 0;) moveOne(k);
 }
 
-/// Moves runs of elements of `bytes` bytes, possibly within the same memory. Runs that move up are processed from the
-/// last to the first, so that none is overwritten before it has been moved. The order of runs is preserved, so runs
-/// that move down never overlap runs that move up.
+/// Moves runs of elements of `size` bytes, possibly within the same memory if their order is preserved. Then runs that
+/// move up are processed from the last to the first, so that none is overwritten before it has been moved; runs that
+/// move down never overlap runs that move up.
 template <class Run>
-void moveRuns(const std::vector<Run>& runs, const std::byte* from, std::byte* to, std::size_t bytes) {
+void moveRuns(const std::vector<Run>& runs, const std::byte* from, std::byte* to, std::size_t size) {
   const auto goesUp = [](const Run& run) { return run.to > run.from; };
-  for (auto run = runs.begin(); run != runs.end();) {
-    const auto next = std::find_if_not(run, runs.end(), goesUp);
-    for (auto up = next; up != run;) moveRun(*--up, from, to, bytes);
-    run = std::find_if(next, runs.end(), goesUp);
-    for (auto down = next; down != run; ++down) moveRun(*down, from, to, bytes);
-  }
+  withSize(size, [&](auto bytes) {
+    for (auto run = runs.begin(); run != runs.end();) {
+      const auto next = std::find_if_not(run, runs.end(), goesUp);
+      for (auto up = next; up != run;) moveRun(*--up, from, to, bytes);
+      run = std::find_if(next, runs.end(), goesUp);
+      for (auto down = next; down != run; ++down) moveRun(*down, from, to, bytes);
+    }
+  });
 }
 
 }  // namespace tushar::tasks

@@ -36,6 +36,12 @@ class ParticleMaker {
     ids_.push_back(id);
   }
 
+  /// Makes space for the cells and ids of `count` particles.
+  void reserve(std::size_t count) {
+    cells_.reserve(count);
+    ids_.reserve(count);
+  }
+
   /// Keeps the particles of the patch unchanged; only if no particle has been added.
   void keepAll() { keeps_all_ = true; }
 

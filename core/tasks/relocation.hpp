@@ -106,7 +106,9 @@ class Relocation {
     int to, incoming;
   };
   struct PatchMoves {
+    std::vector<double> nodes;       ///< positions of nodes along the first axis
     std::vector<int> departed;       ///< indices of the patch's particles that leave their cell, ascending
+    int crossing = 0;                ///< number of those that leave their row of cells
     std::vector<Outgoing> outgoing;  ///< those departed particles that move to other patches
     std::vector<Incoming> incoming;  ///< particles that enter a cell of the patch
     std::vector<Arrival> arrivals;
@@ -115,6 +117,7 @@ class Relocation {
     std::vector<Run> runs;                  ///< ascending
     std::vector<Entry> entries;             ///< ascending
     std::size_t packed = 0;                 ///< index of the first departed particle among those of all patches
+    bool toNewMemory = false;               ///< see Moves
     int count = 0;                          ///< number of particles in the new set
     int furthest = -1;                      ///< greatest previous index of these particles
     std::optional<Escape> escape;
@@ -138,10 +141,14 @@ class Relocation {
     std::vector<PatchMoves> patches;
     ParticleMigration migration;
     bool goFar = false;
+    /// Whether values move to new memory, because that is faster: if many particles change their places, long runs of
+    /// them often do so together.
+    bool toNewMemory = false;
     int id = -1;             ///< index of the variable that contains the ids, once it is known
     std::size_t packed = 0;  ///< number of particles whose values are packed, on all patches
   };
-  /// A variable being moved: its memory before and after on each patch, and the values of departed particles.
+  /// A variable being moved: its memory before and after on each patch, and the values of departed particles, which are
+  /// packed only if they could be overwritten before they are moved.
   struct Move {
     std::size_t bytes;
     const std::byte* from;
@@ -149,6 +156,8 @@ class Relocation {
     const data::Slots *before, *after;
     const std::byte* migrants;
     std::byte* packed;
+
+    const std::byte* ofPatch(std::size_t place) const { return from + before->first[place] * bytes; }
   };
 
   template <class Work>
@@ -178,6 +187,18 @@ class Relocation {
   /// Records the destination of the particle that departed last.
   template <int D>
   void move(const grid::Patch& from, const Step<D>& step, Vec<D>& x, ParticleId id, PatchMoves& moves);
+  /// Consecutive particles, from the index `first` on, and the ids of the patch.
+  struct Column {
+    int first;
+    const ParticleId* ids;
+  };
+  /// Records the moves of one particle from each of as many cells as there are lanes, from `cell` on, which all make
+  /// the same `step`; returns false, and does nothing, unless all cells that they enter belong to the patch.
+  template <int D>
+  static bool enterTogether(const grid::Patch& patch, const Index<D>& cell, const Index<D>& step,
+                            const Column& particles, PatchMoves& moves);
+  /// Records the cell of the grid that the particle enters that departed last.
+  static void enter(const grid::Patch& from, const Index3& cell, ParticleId id, PatchMoves& moves);
   /// Sorts the particles that left their patch into those at an invalid position, those outside the grid, and those
   /// that migrate to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
@@ -188,6 +209,10 @@ class Relocation {
   /// Adds incoming particles to the patches that they enter.
   void receiveAll(Moves& moves);
   static void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves);
+  /// Inserts a particle into the list of those that enter its cell, which are ordered by id; `first` is the index of
+  /// the first of them.
+  static void link(int* first, const Incoming& particle, PatchMoves& moves);
+  bool isFasterInNewMemory(int material, const Moves& moves) const;
   void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);
   static void keepAll(PatchMoves& moves, int count);
   static void keep(PatchMoves& moves, int first, int count);

@@ -30,8 +30,10 @@ void Relocation::apply(int material, const std::vector<Carried>& carried, Genera
   Moves& moves = movesOf(material);
   moves.migration.run(carried, moves.goFar);
   receiveAll(moves);
+  moves.toNewMemory = isFasterInNewMemory(material, moves);
   forEachPatch([&](const Patch& patch) {
     PatchMoves& ofPatch = of(moves, patch.id());
+    ofPatch.toNewMemory = moves.toNewMemory;
     if (!ofPatch.staysAsItIs(to)) return rebuild(patch, material, ofPatch);
     keepSet(*warehouse_, material, patch);
     keepAll(ofPatch, warehouse_->particles(Generation::fresh, material, patch.id()).owned());
@@ -45,6 +47,14 @@ void Relocation::apply(int material, const std::vector<Carried>& carried, Genera
     ofPatch.packed = std::exchange(moves.packed, moves.packed + count);
   }
   for (std::size_t place = 0; place < carried.size(); ++place) carry(carried[place], place, to, material, moves);
+}
+
+bool Relocation::isFasterInNewMemory(int material, const Moves& moves) const {
+  long particles = 0, crossing = 0;
+  for (const Patch& patch : warehouse_->grid().patches())
+    particles += warehouse_->particles(Generation::old, material, patch.id()).owned();
+  for (const PatchMoves& ofPatch : moves.patches) crossing += ofPatch.crossing;
+  return crossing > particles / 8;
 }
 
 void Relocation::receiveAll(Moves& moves) {
@@ -82,12 +92,17 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
     const ParticleRange* from = before.row(cell);
     ParticleRange* to = after.openRow(cell);
     const int* firstIncoming = moves.firstIncoming[row];
-    for (int k = 0; k < rowLength; ++k) {
+    const auto changes = [&](int k) {
+      return firstIncoming[k] >= 0 ||
+             (nextDeparted < moves.departed.size() && moves.departed[nextDeparted] < from[k].last);
+    };
+    for (int k = 0; k < rowLength;) {
       k += keepCells(moves, {from + k, from + rowLength}, firstIncoming + k, nextDeparted, to + k);
-      if (k == rowLength) break;
-      const int first = moves.count;
-      mergeCell(moves, from[k], firstIncoming[k], ids, nextDeparted);
-      to[k] = {first, moves.count};
+      for (; k < rowLength && changes(k); ++k) {
+        const int first = moves.count;
+        mergeCell(moves, from[k], firstIncoming[k], ids, nextDeparted);
+        to[k] = {first, moves.count};
+      }
     }
     after.closeRow(cell);
   });
@@ -104,7 +119,7 @@ void Relocation::keepAll(PatchMoves& moves, int count) {
 }
 
 /// Appends particles that stay and were consecutive before; they remain consecutive.
-void Relocation::keep(PatchMoves& moves, int first, int count) {
+inline void Relocation::keep(PatchMoves& moves, int first, int count) {
   if (count == 0) return;
   Run* last = moves.runs.empty() ? nullptr : &moves.runs.back();
   if (last && last->from + last->count == first && last->to + last->count == moves.count)
@@ -115,8 +130,8 @@ void Relocation::keep(PatchMoves& moves, int first, int count) {
   moves.furthest = std::max(moves.furthest, first + count - 1);
 }
 
-int Relocation::keepCells(PatchMoves& moves, std::span<const ParticleRange> from, const int* firstIncoming,
-                          std::size_t nextDeparted, ParticleRange* to) {
+inline int Relocation::keepCells(PatchMoves& moves, std::span<const ParticleRange> from, const int* firstIncoming,
+                                 std::size_t nextDeparted, ParticleRange* to) {
   const int leaves =
       nextDeparted < moves.departed.size() ? moves.departed[nextDeparted] : std::numeric_limits<int>::max();
   const int cells = static_cast<int>(from.size());
@@ -130,19 +145,21 @@ int Relocation::keepCells(PatchMoves& moves, std::span<const ParticleRange> from
   return k;
 }
 
-/// Appends an incoming particle. It is kept where it is if it has come from the patch itself, to the index that it had,
-/// and all particles before it have only changed places among themselves: then no other move crosses its place.
-void Relocation::letIn(PatchMoves& moves, int incoming) {
+/// Appends an incoming particle. Within the same memory, it is kept where it is if it has come from the patch itself,
+/// to the index that it had, and all particles before it have only changed places among themselves: then no other move
+/// crosses its place.
+inline void Relocation::letIn(PatchMoves& moves, int incoming) {
   const int departed = moves.incoming[incoming].from;
   const int from = departed < 0 ? std::numeric_limits<int>::max() : moves.departed[departed];
-  if (from == moves.count && moves.furthest < from) return keep(moves, from, 1);
+  const bool isKept = moves.toNewMemory ? departed >= 0 : from == moves.count && moves.furthest < from;
+  if (isKept) return keep(moves, from, 1);
   moves.furthest = std::max(moves.furthest, from);
   moves.entries.push_back({moves.count++, incoming});
 }
 
 /// Appends the particles of one cell, in the order of their ids: those that stay, and those that enter.
-void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int firstIncoming, const ParticleId* ids,
-                           std::size_t& nextDeparted) {
+inline void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int firstIncoming,
+                                  const ParticleId* ids, std::size_t& nextDeparted) {
   int waiting = firstIncoming;
   const auto letInOne = [&] {
     letIn(moves, waiting);
@@ -159,46 +176,50 @@ void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int f
   while (waiting >= 0) letInOne();
 }
 
-/// Moves a variable to its new slots, within its memory if it is already in generation `to` and the slots allow this.
+/// Moves a variable to its new slots, within its memory if it is already in generation `to`, the slots allow this, and
+/// it is faster.
 void Relocation::carry(const Carried& carried, std::size_t place, Generation to, int material, Moves& moves) {
   const data::SharedSlots& after = warehouse_->slotsOfSets(Generation::fresh, material);
   const data::SharedSlots& current = warehouse_->slots(carried.from, carried.variable);
   const data::SharedSlots outdated = current == after ? nullptr : current;
-  data::Buffer outgrown;
-  if (carried.from == to)
-    outgrown = warehouse_->follow(to, carried.variable, Generation::fresh);
-  else
+  data::Buffer before;
+  if (carried.from != to)
     warehouse_->allocateParticles(to, carried.variable, Generation::fresh);
+  else if (moves.toNewMemory)
+    before = warehouse_->renew(to, carried.variable, Generation::fresh);
+  else
+    before = warehouse_->follow(to, carried.variable, Generation::fresh);
+  const std::byte* from = before.capacity() > 0 ? before.data() : warehouse_->memory(carried.from, carried.variable);
   const std::size_t bytes = warehouse_->table()[carried.variable].label->bytes;
-  data::Buffer packed;
-  if (moves.packed > 0) packed = warehouse_->lend(moves.packed * bytes);
-  const std::byte* from =
-      outgrown.capacity() > 0 ? outgrown.data() : warehouse_->memory(carried.from, carried.variable);
-  const Move move{.bytes = bytes,
-                  .from = from,
-                  .to = warehouse_->memory(to, carried.variable),
-                  .before = outdated ? outdated.get() : after.get(),
-                  .after = after.get(),
-                  .migrants = moves.migration.values(place),
-                  .packed = packed.data()};
-  const bool isInPlace = from == move.to && !outdated;
+  Move move{.bytes = bytes,
+            .from = from,
+            .to = warehouse_->memory(to, carried.variable),
+            .before = outdated ? outdated.get() : after.get(),
+            .after = after.get(),
+            .migrants = moves.migration.values(place),
+            .packed = nullptr};
+  const bool isSameMemory = from == move.to, isInPlace = isSameMemory && !outdated;
   const auto placeOf = [&](const Patch& patch) {
     return static_cast<std::size_t>(patch.id() - warehouse_->grid().firstPatch());
   };
   const auto keepsIndices = [&](const Patch& patch) { return of(moves, patch.id()).keepsIndices(); };
-  if (moves.packed > 0)
+  data::Buffer packed;
+  if (isSameMemory && moves.packed > 0) {
+    packed = warehouse_->lend(moves.packed * bytes);
+    move.packed = packed.data();
     forEachPatch([&](const Patch& patch) {
       if (!keepsIndices(patch)) pack(move, placeOf(patch), of(moves, patch.id()));
     });
+  }
   forEachPatch([&](const Patch& patch) {
     if (!isInPlace || !keepsIndices(patch)) moveOn(move, placeOf(patch), moves);
   });
   warehouse_->takeBack(packed);
-  warehouse_->takeBack(outgrown);
+  warehouse_->takeBack(before);
 }
 
 void Relocation::pack(const Move& move, std::size_t place, const PatchMoves& moves) {
-  const std::byte* from = move.from + move.before->first[place] * move.bytes;
+  const std::byte* from = move.ofPatch(place);
   std::byte* to = move.packed + moves.packed * move.bytes;
   withSize(move.bytes, [&](auto bytes) {
     for (const int one : moves.departed) {
@@ -211,19 +232,24 @@ void Relocation::pack(const Move& move, std::size_t place, const PatchMoves& mov
 void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
   const PatchMoves& moves = all.patches[place];
   std::byte* values = move.to + move.after->first[place] * move.bytes;
-  moveRuns(moves.runs, move.from + move.before->first[place] * move.bytes, values, move.bytes);
-  const std::byte* packed = move.packed + moves.packed * move.bytes;
+  moveRuns(moves.runs, move.ofPatch(place), values, move.bytes);
+  const auto departed = [&](std::size_t patch, std::size_t at) {
+    const PatchMoves& from = all.patches[patch];
+    return move.packed ? move.packed + (from.packed + at) * move.bytes
+                       : move.ofPatch(patch) + static_cast<std::size_t>(from.departed[at]) * move.bytes;
+  };
   withSize(move.bytes, [&](auto bytes) {
     for (const Entry& entry : moves.entries) {
       const int source = moves.incoming[entry.incoming].from;
       const std::byte* from = nullptr;
       if (source >= 0) {
-        from = packed + static_cast<std::size_t>(source) * bytes;
+        from = departed(place, static_cast<std::size_t>(source));
       } else {
         const Arrival& arrival = moves.arrivals[-1 - source];
-        const std::size_t at = arrival.place;
-        from =
-            arrival.patch < 0 ? move.migrants + at * bytes : move.packed + (of(all, arrival.patch).packed + at) * bytes;
+        const std::size_t at = static_cast<std::size_t>(arrival.place);
+        from = arrival.patch < 0
+                   ? move.migrants + at * bytes
+                   : departed(static_cast<std::size_t>(arrival.patch - warehouse_->grid().firstPatch()), at);
       }
       std::memcpy(values + static_cast<std::size_t>(entry.to) * bytes, from, bytes);
     }

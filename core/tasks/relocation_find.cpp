@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "core/base/lanes.hpp"
 #include "core/data/vanished.hpp"
 #include "core/grid/passed_sides.hpp"
 #include "core/tasks/broken_value.hpp"
+#include "core/tasks/cell_bounds.hpp"
 #include "core/tasks/outcome.hpp"
 
 // How Relocation finds which particles leave their cells, and where to.
@@ -27,35 +27,12 @@ Index3 widened(const Index<D>& cell) {
   return wide;
 }
 
-/// Whether a position lies in the cell with these bounds.
+/// Whether a particle that moves between two cells leaves its row along the first axis.
 template <int D>
-bool isInside(const Vec<D>& x, const Vec<D>& lower, const Vec<D>& upper) {
-  bool inside = true;
-  for (int d = 0; d < D; ++d) inside &= (x[d] >= lower[d]) & (x[d] < upper[d]);
-  return inside;
-}
-
-/// Whether all of `count` consecutive positions lie in the cell with these bounds.
-template <int D>
-bool areInside(const Vec<D>* x, int count, const Vec<D>& lower, const Vec<D>& upper) {
-  for (; count >= Lanes::count; x += Lanes::count, count -= Lanes::count) {
-    const std::array<Lanes, D> at = tushar::unpack<D>(x->data());
-    Lanes::Mask inside = at[0] >= at[0];
-    for (int d = 0; d < D; ++d) inside &= (at[d] >= lower[d]) & (at[d] < upper[d]);
-    if (!tushar::all(inside)) return false;
-  }
-  bool inside = true;
-  for (int k = 0; k < count; ++k) inside &= isInside<D>(x[k], lower, upper);
-  return inside;
-}
-
-/// The cell that contains x along a kernel axis, as Level::cellAlong finds it, but first tries `cell`, which extends
-/// from `lower` to `upper`, and its neighbours.
-inline int cellNear(const grid::Level& level, int axis, int cell, double lower, double upper, double x) {
-  if (x >= lower && x < upper) return cell;
-  if (x >= upper && cell + 1 < level.cells().upper[axis] && x < level.nodePosition(axis, cell + 2)) return cell + 1;
-  if (x < lower && cell > 0 && x >= level.nodePosition(axis, cell - 1)) return cell - 1;
-  return level.cellAlong(axis, x);
+bool leavesRow(const Index<D>& from, const Index<D>& to) {
+  bool leaves = false;
+  for (int d = 1; d < D; ++d) leaves |= to[d] != from[d];
+  return leaves;
 }
 
 /// Does what grid::withUpperSides does; not inline, because hardly any grid has inner sides.
@@ -91,25 +68,6 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& from, c
 }
 
 }  // namespace
-
-/// The bounds of the cells of a row: they share those along all axes but the first.
-template <int D>
-struct BoundsOfRow {
-  const double* nodes;  ///< positions along the first axis, from the lower bound of the first cell on
-  Vec<D> lower, upper;  ///< of a cell; of the row along the other axes
-
-  /// Whether each of as many cells as there are lanes, the first of them number `cell` of the row, contains one
-  /// particle, whose position lies in it; `ranges` are their particles.
-  bool areAllInside(int cell, const ParticleRange* ranges, const Vec<D>* x) const {
-    const int first = ranges[0].first;
-    for (int k = 0; k < Lanes::count; ++k)
-      if (ranges[k].first != first + k || ranges[k].last != first + k + 1) return false;
-    const std::array<Lanes, D> at = tushar::unpack<D>(x[first].data());
-    Lanes::Mask inside = (at[0] >= Lanes::at(nodes + cell)) & (at[0] < Lanes::at(nodes + cell + 1));
-    for (int d = 1; d < D; ++d) inside &= (at[d] >= lower[d]) & (at[d] < upper[d]);
-    return tushar::all(inside);
-  }
-};
 
 void Relocation::forgetLayout() { moves_.clear(); }
 
@@ -184,6 +142,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
                            PatchMoves& moves) {
   forgetIncoming(patch, moves);
   moves.departed.clear();
+  moves.crossing = 0;
   moves.outgoing.clear();
   moves.incoming.clear();
   moves.arrivals.clear();
@@ -192,34 +151,36 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
   if (set.owned() == 0) return;
   const grid::Level& level = warehouse_->grid().finest();
   const grid::Box& cells = patch.cells();
-  std::vector<double> nodes;
-  for (int node = cells.lower[0]; node <= cells.upper[0]; ++node) nodes.push_back(level.nodePosition(0, node));
-  BoundsOfRow<D> bounds{.nodes = nodes.data(), .lower = {}, .upper = {}};
+  const bool isPlain = !level.boxes() && warehouse_->grid().levels() == 1;
+  if (moves.nodes.empty()) moves.nodes = CellBounds<D>::nodesAround(level, cells);
+  CellBounds<D> bounds(level, cells, moves.nodes);
   const auto visitCell = [&](const Index<D>& cell, const ParticleRange& range) {
-    bounds.lower[0] = nodes[static_cast<std::size_t>(cell[0] - cells.lower[0])];
-    bounds.upper[0] = nodes[static_cast<std::size_t>(cell[0] - cells.lower[0]) + 1];
-    if (range.size() > 1 && areInside<D>(x + range.first, range.size(), bounds.lower, bounds.upper)) return;
+    bounds.choose(cell[0]);
+    if (range.size() > 1 && bounds.areInside(x + range.first, range.size(), set.owned() - range.first)) return;
     for (const int p : range) {
-      if (isInside<D>(x[p], bounds.lower, bounds.upper)) continue;
-      Index<D> to;
-      for (int d = 0; d < D; ++d) to[d] = cellNear(level, d, cell[d], bounds.lower[d], bounds.upper[d], x[p][d]);
+      Index<D> step;
+      const bool isNear = bounds.isNear(x[p], step);
+      if (isNear && step == Index<D>()) continue;
+      Index<D> to = isNear ? cell + step : level.cellOf<D>(x[p]);
       if (level.boxes()) to = cellBesideInnerSides<D>(level, cell, x[p], to);
       if (to == cell) continue;
       moves.departed.push_back(p);
-      move<D>(patch, {cell, to}, x[p], ids[p], moves);
+      moves.crossing += leavesRow<D>(cell, to) ? 1 : 0;
+      if (isNear && isPlain)
+        enter(patch, widened(to), ids[p], moves);
+      else
+        move<D>(patch, {cell, to}, x[p], ids[p], moves);
     }
   };
   grid::forEach<D>(cells.rowStarts(), [&](Index<D> cell) {
-    for (int d = 1; d < D; ++d) {
-      bounds.lower[d] = level.nodePosition(d, cell[d]);
-      bounds.upper[d] = level.nodePosition(d, cell[d] + 1);
-    }
+    bounds.chooseRow(cell);
     const data::ParticleSet::Span span = set.occupied(cell, cells.upper[0]);
     cell[0] = span.first;
     for (const ParticleRange* range = set.row(cell); cell[0] < span.last;) {
       const int end = std::min(cell[0] + Lanes::count, span.last);
-      const bool isFull = end == cell[0] + Lanes::count;
-      if (isFull && bounds.areAllInside(cell[0] - cells.lower[0], range, x)) {
+      Index<D> step;
+      if (end == cell[0] + Lanes::count && bounds.moveTogether(cell[0], range, x, step) &&
+          (step == Index<D>() || (isPlain && enterTogether<D>(patch, cell, step, {range->first, ids}, moves)))) {
         cell[0] = end;
         range += Lanes::count;
       } else {
@@ -230,32 +191,49 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
 }
 
 template <int D>
+bool Relocation::enterTogether(const Patch& patch, const Index<D>& cell, const Index<D>& step, const Column& particles,
+                               PatchMoves& moves) {
+  const Index3 first = widened(cell + step);
+  Index3 last = first;
+  last[0] += Lanes::count - 1;
+  if (!patch.cells().contains(first) || !patch.cells().contains(last)) return false;
+  int* links = moves.firstIncoming.open(patch.cells().rowOf(first)) + (first[0] - patch.cells().lower[0]);
+  for (int k = 0; k < Lanes::count; ++k) {
+    const int p = particles.first + k;
+    moves.departed.push_back(p);
+    link(links + k, {particles.ids[p], static_cast<int>(moves.departed.size()) - 1, -1}, moves);
+  }
+  if (leavesRow<D>(cell, cell + step)) moves.crossing += Lanes::count;
+  return true;
+}
+
+template <int D>
 void Relocation::move(const Patch& from, const Step<D>& step, Vec<D>& x, ParticleId id, PatchMoves& moves) {
   if (x[0] == data::removed) ++moves.losing.removed;
   if (x[0] == data::vanished || x[0] == data::removed) return;
   const grid::Level& level = warehouse_->grid().finest();
-  const int departed = static_cast<int>(moves.departed.size()) - 1, place = moves.departed.back();
   Index<D> cell = step.to;
   if (level.isPeriodic() && !level.cells().contains(cell)) {
     wrap<D>(level, x);
     cell = level.cellOf<D>(x);
   }
+  const Escape escape{level.cellNumber<D>(step.from), id, from.id(), moves.departed.back()};
   if (!level.isInside<D>(cell)) {
     ++moves.losing.left;
-    const Escape escape{level.cellNumber<D>(step.from), id, from.id(), place};
     if (!mayLeave<D>(level, x, step.from, cell) && (!moves.escape || escape < *moves.escape)) moves.escape = escape;
-    return;
-  }
-  const Index3 wide = widened(cell);
-  if (isNearCoarser(from, wide)) {  // it may be outside all patches of this level
-    const Escape escape{level.cellNumber<D>(step.from), id, from.id(), place};
+  } else if (isNearCoarser(from, widened(cell))) {  // it may be outside all patches of this level
     if (!moves.escape || escape < *moves.escape) moves.escape = escape;
-    return;
+  } else {
+    enter(from, widened(cell), id, moves);
   }
-  if (from.cells().contains(wide))
-    receive(from, wide, {id, departed, -1}, moves);
+}
+
+inline void Relocation::enter(const Patch& from, const Index3& cell, ParticleId id, PatchMoves& moves) {
+  const int departed = static_cast<int>(moves.departed.size()) - 1;
+  if (from.cells().contains(cell))
+    receive(from, cell, {id, departed, -1}, moves);
   else
-    moves.outgoing.push_back({id, wide, place, departed});
+    moves.outgoing.push_back({id, cell, moves.departed.back(), departed});
 }
 
 bool Relocation::isInOrNearCoarser(const Patch& from, const Index3& cell) const {
@@ -265,12 +243,15 @@ bool Relocation::isInOrNearCoarser(const Patch& from, const Index3& cell) const 
 }
 
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves) {
+  link(moves.firstIncoming.open(patch.cells().rowOf(cell)) + (cell[0] - patch.cells().lower[0]), particle, moves);
+}
+
+inline void Relocation::link(int* first, const Incoming& particle, PatchMoves& moves) {
   const int added = static_cast<int>(moves.incoming.size());
   moves.incoming.push_back(particle);
-  int* link = moves.firstIncoming.open(patch.cells().rowOf(cell)) + (cell[0] - patch.cells().lower[0]);
-  while (*link >= 0 && moves.incoming[*link].id < particle.id) link = &moves.incoming[*link].next;
-  moves.incoming.back().next = *link;
-  *link = added;
+  while (*first >= 0 && moves.incoming[*first].id < particle.id) first = &moves.incoming[*first].next;
+  moves.incoming.back().next = *first;
+  *first = added;
 }
 
 Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {

@@ -6,6 +6,7 @@
 
 #include "core/tasks/outcome.hpp"
 #include "core/tasks/particle_installer.hpp"
+#include "core/tasks/relocation.hpp"
 #include "core/tasks/task_graph.hpp"
 
 namespace tushar::tasks {

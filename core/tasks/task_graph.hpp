@@ -8,10 +8,10 @@
 #include "core/tasks/connect.hpp"
 #include "core/tasks/context.hpp"
 #include "core/tasks/exchange.hpp"
+#include "core/tasks/particle_migration.hpp"
 #include "core/tasks/place.hpp"
 #include "core/tasks/plan.hpp"
 #include "core/tasks/prune.hpp"
-#include "core/tasks/relocation.hpp"
 
 namespace tushar::tasks {
 
