@@ -62,6 +62,17 @@ struct NewBoxes {
             .affineEnergy = take(creates(p::affineEnergy))};
   }
 
+  /// Makes space for `count` particles.
+  void reserve(ParticleMaker& maker, std::size_t count) const {
+    maker.reserve(count);
+    x.reserve(count);
+    edges.reserve(count);
+    mass.reserve(count);
+    velocity.reserve(count);
+    modes.reserve(count);
+    internalEnergy.reserve(count);
+    affineEnergy.reserve(count);
+  }
   /// Adds a particle to a cell.
   void add(ParticleMaker& maker, const Index<D>& cell, const GasBox<D>& box) const {
     maker.add(cell, box.id);

@@ -3,6 +3,7 @@
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/rows.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
+#include "components/mpm/gas/conserving/two_slabs.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/mirror_symmetry.hpp"
 #include "components/mpm/gas/symmetry_planes.hpp"
@@ -17,13 +18,14 @@ std::array<Vec<D>, Linear<D>::nodes> centreGradients(const Level& level) {
   return gradients;
 }
 
-/// The gradient at the centres of cells of a vector field; `at(nodes)` has the vectors at the nodes of a part of a row,
-/// and the lowest nodes of the cells are those of `cells`.
-template <int D, class VectorsAt>
+/// The gradient at the centres of cells of a vector field, from TwoSlabs of its values at nodes; the lowest nodes of
+/// the cells are those of `cells`.
+template <int D, class Slabs>
 [[gnu::always_inline]] inline LanesTensor<D> gradientIn(const std::array<Vec<D>, Linear<D>::nodes>& gradients,
-                                                        const RowPart<D>& cells, VectorsAt&& at) {
+                                                        const RowPart<D>& cells, Slabs& slabs) {
+  slabs.moveTo(cells.first[D - 1] + 1);
   return sumOverCorners<D>([&](int k) __attribute__((always_inline)) {
-    const LanesVec<D> v = at(cells + Linear<D>::node({}, k));
+    const LanesVec<D> v = matrixOf<D, 1>(slabs.at(cells + Linear<D>::node({}, k)));
     LanesTensor<D> share;
     for (int d = 0; d < D; ++d) share.col(d) = gradients[static_cast<std::size_t>(k)][d] * v;
     return share;
@@ -35,12 +37,10 @@ template <int D>
 void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<D>> velocity,
                              CellView<Tensor<D>> gradient) {
   const auto gradients = centreGradients<D>(patch.level());
-  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
-    store(gradientIn<D>(
-              gradients,
-              cells, [&](const RowPart<D>& nodes) __attribute__((always_inline)) { return load(velocity, nodes); }),
-          gradient, cells);
-  });
+  auto slabs = twoSlabs<D, 1>(
+      patch.nodes(), [&](const RowPart<D>& nodes) __attribute__((always_inline)) { return load(velocity, nodes); });
+  forEachRowPart<D>(patch.cells(),
+                    [&](const RowPart<D>& cells) { store(gradientIn<D>(gradients, cells, slabs), gradient, cells); });
 }
 
 /// Pressure, artificial viscosity and shock sensor of cells; one cell per lane.
@@ -95,9 +95,12 @@ void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D
                          NodeView<Vec<D>> acceleration) {
   const double volume = patch.level().cellVolume();
   const auto gradients = centreGradients<D>(patch.level());
+  auto slabs = twoSlabs<D, D>(
+      stress.box(), [&](const RowPart<D>& cells) __attribute__((always_inline)) { return load(stress, cells); });
   const auto inside = [&](const RowPart<D>& nodes) {
+    slabs.moveTo(nodes.first[D - 1]);
     const LanesVec<D> force = sumOverCorners<D>([&](int k) __attribute__((always_inline)) {
-      const LanesTensor<D> there = load(stress, nodes + (Index<D>{} - Linear<D>::node({}, k)));
+      const LanesTensor<D> there = matrixOf<D, D>(slabs.at(nodes + (Index<D>{} - Linear<D>::node({}, k))));
       return timesGradient<D>(there, gradients[static_cast<std::size_t>(k)]);
     });
     const Lanes m = load(mass, nodes), perMass = volume / m;
@@ -154,11 +157,12 @@ void computeWork(const Patch& patch, const Gas&, CellView<const Tensor<D>> stres
                  NodeView<const Vec<D>> acceleration, double dt, CellView<double> work) {
   const auto gradients = centreGradients<D>(patch.level());
   const double scale = -dt * patch.level().cellVolume();
+  auto slabs = twoSlabs<D, 1>(
+      patch.nodes(), [&](const RowPart<D>& nodes) __attribute__((always_inline)) {
+        return LanesVec<D>(load(velocity, nodes) + (0.5 * dt) * load(acceleration, nodes));
+      });
   forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
-    const LanesTensor<D> gradient = gradientIn<D>(
-        gradients, cells, [&](const RowPart<D>& nodes) __attribute__((always_inline)) {
-          return LanesVec<D>(load(velocity, nodes) + (0.5 * dt) * load(acceleration, nodes));
-        });
+    const LanesTensor<D> gradient = gradientIn<D>(gradients, cells, slabs);
     const LanesTensor<D> t = load(stress, cells);
     Lanes power = 0;
     for (int d = 0; d < D; ++d) power += t.col(d).dot(gradient.col(d));

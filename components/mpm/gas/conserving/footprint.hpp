@@ -32,8 +32,10 @@ struct Footprint {
   std::array<Span<overhang>, D> along;
   Index<D> start;  ///< cell of the first lane
 
-  Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges)
-      : Footprint(grid, batch, centre, edges, std::make_index_sequence<D>()) {}
+  template <SpanValues Values = SpanValues::all>
+  Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
+            Computes<Values> values = {})
+      : Footprint(grid, batch, centre, edges, values, std::make_index_sequence<D>()) {}
 
   LanesVec<D> inertia() const {
     LanesVec<D> all;
@@ -118,10 +120,10 @@ struct Footprint {
   }
 
  private:
-  template <std::size_t... Axis>
+  template <SpanValues Values, std::size_t... Axis>
   Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
-            std::index_sequence<Axis...>)
-      : along{{{grid.along[Axis], batch.cell[Axis], centre[Axis], edges[Axis]}...}}, start(batch.start) {}
+            Computes<Values> values, std::index_sequence<Axis...>)
+      : along{{{grid.along[Axis], batch.cell[Axis], centre[Axis], edges[Axis], values}...}}, start(batch.start) {}
 
   template <int Axis, class Value>
   Lanes sumAlong(Index<D>& k, const Lanes& part, Value& value) const {

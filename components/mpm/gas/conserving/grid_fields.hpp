@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "components/mpm/gas/conserving/footprint.hpp"
@@ -28,7 +29,7 @@ class GridFields {
 
   template <data::Centring C, class T>
   void copy(std::size_t field, const data::GridView<C, T>& from) {
-    forEach<D>(from.box(), [&](const Index<D>& index) { at(field, index) = from[index]; });
+    forEachRow<D>(from.box(), [&](const Index<D>& row, int count) { std::copy_n(&from[row], count, &at(field, row)); });
   }
 
   /// Stores a field at nodes or cells of a row. Lanes beyond the end of the part are stored, too: behind a row is space

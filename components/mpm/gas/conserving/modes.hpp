@@ -37,8 +37,12 @@ Real modalEnergy(const Eigen::Matrix<Real, D, (1 << D) - 1, Eigen::DontAlign>& m
                  const Eigen::Matrix<Real, D, 1, Eigen::DontAlign>& inertia) {
   const auto products = productsOver(inertia);
   Real energy = 0;
-  for (std::size_t a = 1; a < products.size(); ++a)
-    energy += 0.5 * products[a] * modes.col(static_cast<int>(a) - 1).squaredNorm();
+  for (std::size_t a = 1; a < products.size(); ++a) {
+    const auto u = modes.col(static_cast<int>(a) - 1);
+    Real square = u[0] * u[0];  // Eigen adds up those of numbers and those of lanes in different orders
+    for (int d = 1; d < D; ++d) square += u[d] * u[d];
+    energy += 0.5 * products[a] * square;
+  }
   return energy;
 }
 

@@ -91,7 +91,7 @@ void gatherInCells(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
   const RowsAround<D> around(patch, x.cells(), 0);
   BoxSums<D, 2, 0> sums(around.rows, around.blocks);
   const auto visit = [&](const Batch<D>& batch) {
-    const Footprint<D> footprint(grid, batch, load(x, batch), load(edges, batch));
+    const Footprint<D> footprint(grid, batch, load(x, batch), load(edges, batch), Computes<SpanValues::weights>());
     const Lanes m = batch.only(load(mass, batch)), energy = m * load(internalEnergy, batch);
     const std::size_t first = sums.firstOf(footprint), cells = static_cast<std::size_t>(footprint.along[0].cells);
     footprint.forEachRowOfCells([&](const Index<D>& k, const Lanes& part) {

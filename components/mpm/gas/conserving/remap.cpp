@@ -127,7 +127,7 @@ void cut(const Level& level, const CellsOf<D>& grid, const Batch<D>& batch, cons
   const LanesModes<D> modes = load(boxes.modes, batch);
   const Lanes m = batch.only(load(boxes.mass, batch)), e = load(boxes.internalEnergy, batch),
               affine = load(boxes.affineEnergy, batch);
-  const Footprint<D> footprint(grid, batch, centre, edges);
+  const Footprint<D> footprint(grid, batch, centre, edges, Computes<SpanValues::weights>());
   Parts<D> parts(footprint, centre, relativeSlopes<D>(level, contents, 0, batch, edges),
                  relativeSlopes<D>(level, contents, 1, batch, edges));
   LanesVec<D> centroid;
@@ -143,8 +143,12 @@ void cut(const Level& level, const CellsOf<D>& grid, const Batch<D>& batch, cons
   const Lanes surplus = affine - min(kinetic, most), warm = m * e * (1 + min(surplus, 0) / e);
   const std::size_t first = sums.firstOf(footprint);
   footprint.forEachRowOfCells([&](Index<D> k, const Lanes&) {
-    std::array<typename CellSums<D>::Fields::Terms, CellSums<D>::count> terms{};
-    for (std::size_t c = first; k[0] < footprint.along[0].cells; ++k[0], ++c) {
+    std::array<typename CellSums<D>::Fields::Terms, CellSums<D>::count> terms;
+    const std::size_t end = first + static_cast<std::size_t>(footprint.along[0].cells);
+    for (std::size_t c = 0; c < terms[0].size(); ++c)
+      if (c < first || c >= end)
+        for (auto& term : terms) term[c] = 0;
+    for (std::size_t c = first; c < end; ++k[0], ++c) {
       Part<D>& part = parts.at(k);
       LanesVec<D> middle;
       for (int d = 0; d < D; ++d) middle[d] = grid.along[d].centre(widen(footprint.along[d].first + k[d]));
@@ -245,6 +249,54 @@ GasBox<D> boxOf(const Level& level, CellView<const double> mass, const Index<D>&
           .affineEnergy = affine};
 }
 
+/// Whether all cells of a part of a row, which are as many as there are lanes, and all neighbours contain gas. Beyond
+/// the sides of the grid is none.
+template <int D>
+bool isAmidGas(const Contents<D>& contents, const RowPart<D>& part) {
+  if (!part.isFull()) return false;
+  const auto hasGas = [&](const Index<D>& cell) { return contents.readRow(0, cell) > 0; };
+  Lanes::Mask all = hasGas(part.first);
+  for (int d = 0; d < D; ++d) all &= hasGas(part.first - Index<D>::unit(d)) & hasGas(part.first + Index<D>::unit(d));
+  return tushar::all(all);
+}
+
+/// Appends one value per lane.
+template <std::size_t Numbers, class T>
+void append(const std::array<Lanes, Numbers>& columns, std::vector<T>& to) {
+  static_assert(sizeof(T) == Numbers * sizeof(double));
+  const std::size_t size = to.size();
+  to.resize(size + Lanes::count);
+  double* first = reinterpret_cast<double*>(&to[size]);
+  if constexpr (Numbers <= Lanes::count)
+    pack(columns, first);
+  else
+    storeColumns(columns, Lanes::count, [&](int lane) { return first + static_cast<std::size_t>(lane) * Numbers; });
+}
+
+/// Makes the new particles of the cells of a part of a row, one per lane, which fill their cells; bitwise equal to
+/// those that boxOf makes.
+template <int D>
+void addWhole(const Level& level, const CellsOf<D>& grid, const RowPart<D>& part, const Contained<D>& contained,
+              ParticleMaker& maker, const NewBoxes<D>& fresh) {
+  LanesVec<D> centre, edges, inertia;
+  for (int d = 0; d < D; ++d) {
+    const Lanes cell = d == 0 ? Lanes::of([&](int lane) { return double(part.at(lane)[0]); }) : Lanes(part.first[d]);
+    const double h = level.spacing(d);
+    centre[d] = grid.along[static_cast<std::size_t>(d)].centre(cell);
+    edges[d] = h;
+    inertia[d] = 0.25 * h * h;
+  }
+  const Lanes affine = min(contained.within, modalEnergy<D>(contained.modes, inertia));
+  for (int lane = 0; lane < part.count; ++lane) maker.add(part.at(lane), level.cellNumber(part.at(lane)) * idsOfCell);
+  append(coefficientsOf<D, 1>(centre), fresh.x);
+  append(coefficientsOf<D, 1>(edges), fresh.edges);
+  append(std::array{contained.mass}, fresh.mass);
+  append(coefficientsOf<D, 1>(contained.velocity), fresh.velocity);
+  append(coefficientsOf<D, (1 << D) - 1>(contained.modes), fresh.modes);
+  append(std::array{Lanes(contained.internalEnergy + (contained.within - affine))}, fresh.internalEnergy);
+  append(std::array{affine}, fresh.affineEnergy);
+}
+
 }  // namespace
 
 template <int D>
@@ -258,9 +310,12 @@ void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> ma
   const RowsAround<D> around(patch, old.x.cells(), 0);
   typename CellSums<D>::Fields sums(around.rows, around.blocks);
   const auto visit = [&](const Batch<D>& batch) { cut<D>(level, grid, batch, old, contents, sums); };
+  fresh.reserve(maker, static_cast<std::size_t>(old.x.owned()));
   const auto finish = [&](const Index<D>& row) {
     forEachPartOfRow<D>(patch.cells(), row, [&](const RowPart<D>& part) {
       const Contained<D> contained(sums, part.first);
+      if (all(contained.mass > 0) && isAmidGas(contents, part))
+        return addWhole<D>(level, grid, part, contained, maker, fresh);
       for (int lane = 0; lane < part.count; ++lane) {
         const Index<D> cell = part.at(lane);
         if (contained.mass[lane] > 0) fresh.add(maker, cell, boxOf<D>(level, mass, cell, contained, lane));

@@ -44,6 +44,11 @@ template <int Overhang, int Case = 0, class Visit>
   visit(Extent<Case / side, Case / side + 1 + Case % side>());
 }
 
+/// What a Span computes: the weights of nodes and cells, or also the values marked with * in it, which updating needs.
+enum class SpanValues { weights, all };
+template <SpanValues Values>
+using Computes = std::integral_constant<SpanValues, Values>;
+
 /// The cells and nodes of a line that intervals overlap, one interval per lane.
 ///
 /// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the
@@ -62,16 +67,18 @@ struct Span {
   std::array<Lanes, most> part;        ///< fractions of the interval in each cell; their sum is 1
   std::array<Lanes, most + 1> weight;  ///< weights of the nodes; their sum is 1
   std::array<Lanes, most + 1> arm;     ///< distances of the nodes from the centre [m]
-  std::array<Lanes, most + 1> lever;   ///< products of weight and arm [m]
-  std::array<Lanes, most + 1> atLower, atUpper;  ///< weights of the nodes in the values at the ends
-  Lanes inertia;                                 ///< sum of weight times arm² [m²]
+  std::array<Lanes, most + 1> lever;   ///< * products of weight and arm [m]
+  std::array<Lanes, most + 1> atLower, atUpper;  ///< * weights of the nodes in the values at the ends
+  Lanes inertia;                                 ///< * sum of weight times arm² [m²]
   Lanes lower, upper;                            ///< ends of the interval [m]
 
   /// Constructs intervals along kernel axis `d`; `cell` is the cell of the centre. They are cut off at the boundary of
   /// the grid.
   Span(const Level& level, int d, const LaneIntegers& cell, const Lanes& centre, const Lanes& length)
       : Span(CellsAlong(level, d), cell, centre, length) {}
-  Span(const CellsAlong& along, const LaneIntegers& cell, const Lanes& centre, const Lanes& length) {
+  template <SpanValues Values = SpanValues::all>
+  Span(const CellsAlong& along, const LaneIntegers& cell, const Lanes& centre, const Lanes& length,
+       Computes<Values> values = {}) {
     const Lanes number = widen(cell), origin = along.centre(number);
     const Lanes middle = along.inverse * (centre - origin), half = 0.5 * along.inverse * length;
     Lanes from = snap(middle - half), to = snap(middle + half);
@@ -89,8 +96,8 @@ struct Span {
     const Lanes offset = origin - 0.5 * (lower + upper);
     withExtent<Overhang>(
         below, above, [&](auto extent) __attribute__((always_inline)) {
-          distribute(extent, from, to);
-          measureArms(extent, offset, along.h);
+          distribute(extent, from, to, values);
+          measureArms(extent, offset, along.h, values);
         });
   }
 
@@ -144,8 +151,9 @@ struct Span {
   }
   /// Computes parts and weights of the interval from `from` to `to`, measured in cells from the middle of the cell that
   /// contains the interval's centre.
-  template <int Below, int Cells>
-  [[gnu::always_inline]] void distribute(Extent<Below, Cells>, const Lanes& from, const Lanes& to) {
+  template <int Below, int Cells, SpanValues Values>
+  [[gnu::always_inline]] void distribute(Extent<Below, Cells>, const Lanes& from, const Lanes& to, Computes<Values>) {
+    constexpr bool isAll = Values == SpanValues::all;
     const Lanes scale = 1 / (to - from);
     Lanes start = -0.5 - Below, end = start, carried = 0;
 #pragma GCC unroll 8
@@ -157,22 +165,24 @@ struct Span {
       const Lanes share = (b - a) * scale, half = 0.5 * share, lean = half * ((a + b) - 2 * j);
       part[at] = share;
       weight[at] = carried + (half - lean);
-      atLower[at] = (start - a) + 1;
-      atUpper[at] = (end - b) + 1;
+      if constexpr (isAll) atLower[at] = (start - a) + 1;
+      if constexpr (isAll) atUpper[at] = (end - b) + 1;
       carried = half + lean;
       start = a;
       end = b;
     }
     constexpr double edge = Cells - Below - 0.5;
     weight[Cells] = carried;
-    atLower[Cells] = (start - edge) + 1;
-    atUpper[Cells] = (end - edge) + 1;
+    if constexpr (isAll) atLower[Cells] = (start - edge) + 1;
+    if constexpr (isAll) atUpper[Cells] = (end - edge) + 1;
   }
   /// Computes the arms; `offset` is the distance of the cell's centre from that of the interval.
-  template <int Below, int Cells>
-  [[gnu::always_inline]] void measureArms(Extent<Below, Cells> extent, const Lanes& offset, double h) {
+  template <int Below, int Cells, SpanValues Values>
+  [[gnu::always_inline]] void measureArms(Extent<Below, Cells> extent, const Lanes& offset, double h,
+                                          Computes<Values>) {
 #pragma GCC unroll 8
     for (int k = 0; k <= Cells; ++k) arm[static_cast<std::size_t>(k)] = offset + (k - Below - 0.5) * h;
+    if constexpr (Values == SpanValues::weights) return;
     inertia = sumOverNodes<Lanes>(
         extent, [&](int k, Lanes& sum) __attribute__((always_inline)) {
           const std::size_t at = static_cast<std::size_t>(k);

@@ -100,7 +100,7 @@ void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visit
   const CellsOf<D> grid(patch.level());
   const auto visit = [&](const Batch<D>& batch) __attribute__((always_inline)) {
     const LanesVec<D> size = load(t.edges, batch);
-    const Footprint<D> footprint(grid, batch, load(t.x, batch), size);
+    const Footprint<D> footprint(grid, batch, load(t.x, batch), size, Computes<SpanValues::weights>());
     const Lanes m = batch.only(load(t.mass, batch));
     sums.add(footprint, {m, m * load(t.internalEnergy, batch), batch.only(size.prod())},
              fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
