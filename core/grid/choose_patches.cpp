@@ -11,9 +11,8 @@ namespace {
 /// Patches per worker: several, so that a thread that finishes early can start another one.
 constexpr int patchesPerWorker = 4;
 
-/// What the beginning of a row of cells costs, in cells: patches that are short along x have more rows. Measured as 5
-/// to 15 with particles and finite volumes in two and three dimensions.
-constexpr int costOfRow = 8;
+/// What the beginning of a row of cells costs, in cells: patches that are short along x have more rows.
+constexpr int costOfRow = 5;
 
 double countOf(const Index3& cells) { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
 

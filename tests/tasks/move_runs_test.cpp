@@ -29,9 +29,6 @@ std::pair<std::vector<Run>, int> someRuns(std::mt19937& random) {
   return {runs, std::max(to, from)};
 }
 
-const std::byte* bytesOf(const std::vector<double>& values) {
-  return reinterpret_cast<const std::byte*>(values.data());
-}
 std::byte* bytesOf(std::vector<double>& values) { return reinterpret_cast<std::byte*>(values.data()); }
 
 }  // namespace
@@ -45,7 +42,7 @@ TEST(MoveRuns, MovesWithinTheSameMemoryAsFromACopy) {
       std::iota(values.begin(), values.end(), 1.0);
       const std::vector<double> before = values;
       moveRuns(runs, bytesOf(values), bytesOf(values), static_cast<std::size_t>(numbers) * sizeof(double));
-      for (const Run& run : runs)
+      for (const auto& run : runs)
         for (int k = 0; k < run.count * numbers; ++k)
           ASSERT_EQ(values[static_cast<std::size_t>(run.to * numbers + k)],
                     before[static_cast<std::size_t>(run.from * numbers + k)]);
