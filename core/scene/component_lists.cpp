@@ -4,6 +4,18 @@
 
 namespace tushar::scene {
 
+namespace {
+
+/// Adds the materials to which the variables of an access belong, if they are not in the list yet.
+void addMaterials(const tasks::Task& task, const tasks::Access& access, std::vector<std::string>& materials) {
+  const tasks::MaterialRange range = task.rangeOf(access);
+  for (int m = std::max(range.first, 0); m < range.end; ++m)
+    if (std::find(materials.begin(), materials.end(), task.materials[m]) == materials.end())
+      materials.push_back(task.materials[m]);
+}
+
+}  // namespace
+
 std::map<std::string, std::vector<std::string>> cellVariables(const simulation::Component& component) {
   tasks::TaskList initialize, advance, diagnose;
   component.scheduleInitialize(initialize);
@@ -15,10 +27,7 @@ std::map<std::string, std::vector<std::string>> cellVariables(const simulation::
       for (const tasks::Access& access : task.accesses)
         if (access.writes() && access.label->centring == data::Centring::cell &&
             access.label->number == data::Number::real)
-          for (std::vector<std::string>& materials = found[std::string(access.label->name)];
-               const std::string& material : access.ofNone ? std::vector<std::string>() : task.materials)
-            if (std::find(materials.begin(), materials.end(), material) == materials.end())
-              materials.push_back(material);
+          addMaterials(task, access, found[std::string(access.label->name)]);
   return found;
 }
 

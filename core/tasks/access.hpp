@@ -286,6 +286,35 @@ inline constexpr bool isWithoutMaterial = false;
 template <class Argument>
 inline constexpr bool isWithoutMaterial<WithoutMaterial<Argument>> = true;
 
+/// An access to variables of given materials, whatever the materials of the task.
+template <class Argument>
+struct OfMaterials {
+  MaterialRange range;
+  Argument argument;
+  std::vector<Argument> ofEach = {};
+
+  template <Allowed>
+  void declareFor(std::vector<Access>& accesses) {
+    for (int material = range.first; material < range.end; ++material) {
+      const std::size_t first = accesses.size();
+      declareChecked<Allowed{.particles = true}>(ofEach.emplace_back(argument), accesses);
+      for (std::size_t k = first; k < accesses.size(); ++k) accesses[k].ofMaterial = material;
+    }
+  }
+  auto bind(const TaskContext& context) const {
+    std::vector<std::decay_t<decltype(argument.bind(context))>> views;
+    for (const Argument& one : ofEach) views.push_back(one.bind(context));
+    return views;
+  }
+};
+/// Reads variables of given materials: the body gets a std::vector with one view, or one group, for each of them, in
+/// the order of their indices.
+template <class Argument>
+OfMaterials<Argument> ofMaterials(MaterialRange range, Argument argument) {
+  static_assert(isOfMaterialAndPatch<Argument>, "ofMaterials(...) accepts only an access to a variable of a patch");
+  return {range, std::move(argument)};
+}
+
 /// Whether an argument is allowed only in tasks that run once per rank; whether it is that of marks() or newCells().
 template <class Argument>
 inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument>;

@@ -11,10 +11,11 @@ data::Variable TaskContext::variable(int access) const {
 
 TaskContext::ParticlePlace TaskContext::particlePlace(int access) const {
   const BoundAccess& bound = (*accesses_)[access];
-  const data::ParticleSet& set = warehouse_->particles(bound.set, material_, patch_->id());
+  const int material = warehouse_->table()[bound.variable].material;
+  const data::ParticleSet& set = warehouse_->particles(bound.set, material, patch_->id());
   std::byte* const values = variable(access).values;
   if (bound.ghost == 0) return {values, &set, patch_->cells()};
-  const bool isAll = bound.ghost == warehouse_->table().reach(material_);
+  const bool isAll = bound.ghost == warehouse_->table().reach(material);
   return {values, &set, isAll ? set.cells() : patch_->cellsWithin(bound.ghost)};
 }
 

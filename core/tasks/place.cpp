@@ -9,7 +9,7 @@ std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Grid& g
       placements.push_back({static_cast<int>(t), -1, -1});
       continue;
     }
-    const int first = tasks[t].perMaterial() ? 0 : -1;
+    const int first = tasks[t].range().first;
     const int last = tasks[t].perMaterial() ? static_cast<int>(tasks[t].materials.size()) : 0;
     for (int material = first; material < last; ++material)
       for (const grid::Patch& patch : grid.patches()) placements.push_back({static_cast<int>(t), patch.id(), material});

@@ -55,7 +55,7 @@ class Needs {
       ready = std::max(ready, last_change_of_set_);
     const auto made = made_near_.find(access.label->name);
     const Generation near = access.isNew() && made != made_near_.end() ? made->second : set;
-    const Need wanted{{access.label, generation, near, task.perMaterial(access)}, ready, t};
+    const Need wanted{{access.label, generation, near, task.rangeOf(access)}, ready, t};
     const bool known = std::any_of(needs_.begin(), needs_.end(),
                                    [&](const Need& n) { return n.fill == wanted.fill && n.ready == wanted.ready; });
     if (!known) needs_.push_back(wanted);

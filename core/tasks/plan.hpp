@@ -14,7 +14,7 @@ struct GhostFill {
   data::Generation generation;  ///< generation of the values
   data::Generation
       set;  ///< generation of the particle set to which the values belong, or from which node values were computed
-  bool perMaterial;
+  MaterialRange materials;  ///< those to which the variable belongs
 
   friend bool operator==(const GhostFill&, const GhostFill&) = default;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace tushar::tasks {
 
@@ -18,13 +19,30 @@ bool isNeeded(const Task& task, const Names& live) {
                      [&](const Access& access) { return access.writes() && live.contains(access.label->name); });
 }
 
+bool makes(const Access& access) {
+  return (access.kind == AccessKind::computes || access.kind == AccessKind::creates) &&
+         access.label->centring != data::Centring::reduction;
+}
+
+/// Names of variables that several tasks compute, each for other materials.
+Names madeInParts(const std::vector<Task>& tasks) {
+  Names names;
+  std::map<std::string_view, MaterialRange> made;
+  for (const Task& task : tasks)
+    for (const Access& access : task.accesses) {
+      if (!makes(access)) continue;
+      const MaterialRange range = task.rangeOf(access);
+      const auto [first, isFirst] = made.emplace(access.label->name, range);
+      if (!isFirst && !first->second.overlaps(range)) names.emplace(access.label->name);
+    }
+  return names;
+}
+
 /// Turns the variables that are live after a kept task into those that are live before it. Every task adds its part to
-/// a reduction.
-void stepBack(const Task& task, Names& live) {
+/// a reduction, and to a variable made in parts.
+void stepBack(const Task& task, const Names& inParts, Names& live) {
   for (const Access& access : task.accesses)
-    if ((access.kind == AccessKind::computes || access.kind == AccessKind::creates) &&
-        access.label->centring != data::Centring::reduction)
-      live.erase(std::string(access.label->name));
+    if (makes(access) && !inParts.contains(access.label->name)) live.erase(std::string(access.label->name));
   for (const Access& access : task.accesses)
     if (access.kind == AccessKind::requiresNew || access.kind == AccessKind::modifies) live.emplace(access.label->name);
 }
@@ -36,10 +54,11 @@ struct Sweep {
 
 Sweep sweep(const std::vector<Task>& tasks, Names live) {
   Sweep result{std::vector<bool>(tasks.size()), std::vector<Names>(tasks.size())};
+  const Names inParts = madeInParts(tasks);
   for (std::size_t t = tasks.size(); t-- > 0;) {
     result.liveAfter[t] = live;
     result.kept[t] = isNeeded(tasks[t], live);
-    if (result.kept[t]) stepBack(tasks[t], live);
+    if (result.kept[t]) stepBack(tasks[t], inParts, live);
   }
   return result;
 }

@@ -199,9 +199,8 @@ const mpi::Communicator& Scheduler::ranksWithPatches() {
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
   const bool mayAsk = task.recomputeTimeStep >= 0, isOnce = task.task.acrossMaterials || task.task.perRank;
-  const int first = isOnce ? -1 : firstMaterial(task);
-  const int end = first + (isOnce ? 1 : static_cast<int>(task.materials.size()));
-  for (int m = first; m < end && !heard_stop_ && (mayAsk || !hasStopped()); ++m) {
+  const MaterialRange each = isOnce ? MaterialRange{} : task.task.range();
+  for (int m = each.first; m < each.end && !heard_stop_ && (mayAsk || !hasStopped()); ++m) {
     if (!isPresent(m)) continue;
     if (task.task.perRank)
       threads_.alone([&] { runOnRank(task, at); }, trace::Kind::task, task.task.name);

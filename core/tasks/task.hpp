@@ -28,6 +28,7 @@ struct Access {
   const data::Label* keeps = nullptr;  ///< for fluxes: the conserved variable
   /// Whether the variable does not belong to a material, although the task runs over materials.
   bool ofNone = false;
+  int ofMaterial = -1;  ///< index of the material, if it is always the same one; -1: that for which the task runs
 
   bool reads() const {
     return kind == AccessKind::requiresOld || kind == AccessKind::requiresNew || kind == AccessKind::modifies;
@@ -47,6 +48,15 @@ enum class TaskKind {
   newParticles,  ///< runs a body that replaces the particles of its patch with others
 };
 
+/// Indices of consecutive materials, from `first` up to `end`; by default only -1, which stands for no material.
+struct MaterialRange {
+  int first = -1, end = 0;
+
+  bool contains(int material) const { return first <= material && material < end; }
+  bool overlaps(const MaterialRange& other) const { return first < other.end && other.first < end; }
+  friend bool operator==(const MaterialRange&, const MaterialRange&) = default;
+};
+
 /// A task as a component declares it, before it is placed on patches.
 struct Task {
   std::string name;
@@ -56,10 +66,20 @@ struct Task {
   TaskBody body;
   bool acrossMaterials = false;  ///< whether the body gets all materials of a patch together
   bool perRank = false;          ///< whether the body gets all patches of the rank together
+  int firstMaterial = 0;         ///< index of the first material for which it runs; it skips those before
 
   bool perMaterial() const { return !materials.empty(); }
   /// Whether an access refers to a separate variable for each material.
-  bool perMaterial(const Access& access) const { return perMaterial() && !access.ofNone; }
+  bool perMaterial(const Access& access) const { return (perMaterial() && !access.ofNone) || access.ofMaterial >= 0; }
+  /// The materials for which the task runs.
+  MaterialRange range() const {
+    return perMaterial() ? MaterialRange{firstMaterial, static_cast<int>(materials.size())} : MaterialRange{};
+  }
+  /// The materials to which the variables of an access belong.
+  MaterialRange rangeOf(const Access& access) const {
+    if (access.ofMaterial >= 0) return {access.ofMaterial, access.ofMaterial + 1};
+    return perMaterial(access) ? range() : MaterialRange{};
+  }
 };
 
 }  // namespace tushar::tasks

@@ -45,7 +45,29 @@ bool outlivesStep(const data::Label& label) {
 }
 
 int materialOf(const Access& access, int material) {
+  if (access.ofMaterial >= 0) return access.ofMaterial;
   return access.label->centring == Centring::reduction || access.ofNone ? -1 : material;
+}
+
+/// Whether any of the tasks uses a variable of a material.
+bool isOf(const std::vector<Task>& tasks, std::string_view name, int material) {
+  return std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
+    return std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& access) {
+      return access.label->name == name && task.rangeOf(access).contains(material);
+    });
+  });
+}
+
+/// Whether a task other than the one that makes the particles of `made` creates a variable, which no task uses for
+/// these particles.
+bool isOfOthers(const std::vector<Task>& tasks, const std::string& name, const MaterialRange& made) {
+  for (int material = made.first; material < made.end; ++material)
+    if (isOf(tasks, name, material)) return false;
+  return std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
+    return std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& access) {
+      return access.kind == AccessKind::creates && access.label->name == name;
+    });
+  });
 }
 
 }  // namespace
@@ -62,7 +84,7 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Grid& grid, da
   for (std::size_t t = 0; t < stages.size(); ++t) {
     if (!stages[t].fills.empty()) tasks_[stages[t].ready + 1].sends = static_cast<int>(t);
     for (const GhostFill& fill : stages[t].fills)
-      for (int m = fill.perMaterial ? 0 : -1; m < (fill.perMaterial ? materials_ : 0); ++m)
+      for (int m = fill.materials.first; m < fill.materials.end; ++m)
         tasks_[t].fills.push_back(
             {table.number(*fill.label, m), fill.generation, fill.set, fill.label->centring == Centring::particle});
   }
@@ -82,7 +104,8 @@ void TaskGraph::bind(std::size_t t, data::VariableTable& table) {
   const int count = static_cast<int>(task.materials.size());
   materials_ = std::max(materials_, count);
   if (task.kind == TaskKind::newParticles) checkCreated(t);
-  for (int m = task.perMaterial() ? 0 : -1; m < count; ++m) compiled.materials.push_back(bindMaterial(t, m, table));
+  compiled.materials.resize(task.firstMaterial);  // those that it skips
+  for (int m = task.range().first; m < task.range().end; ++m) compiled.materials.push_back(bindMaterial(t, m, table));
   for (const Access& access : task.accesses)
     if (access.label->centring == Centring::reduction)
       (access.writes() ? compiled.reductions : compiled.readReductions).push_back(table.number(*access.label, -1));
@@ -105,7 +128,8 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
     const Generation set = access.isNew() ? sets_[t] : Generation::old;
     binding.accesses.push_back({number, generation, set, access.ghost, access.own});
     table.widen(number, access.ghost);
-    if (access.ofNone && material > 0) continue;  // once for all materials
+    const bool isOfAll = access.ofNone || access.ofMaterial >= 0;
+    if (isOfAll && material > task.firstMaterial) continue;  // once for all materials
     if (access.own) binding.shared.push_back({number, set});
     if (access.kind == AccessKind::computes && access.label->centring != Centring::reduction)
       binding.outputs.push_back({number, set});
@@ -116,7 +140,11 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
   if (task.kind == TaskKind::relocate) binding.carried = carriedBy(t, material, table);
   for (const std::string& label : lifetimes_[t]) {
     binding.freed.push_back(table.find(label, material));
-    if (material == 0) binding.freed.push_back(table.find(label, -1));
+    if (material < 0 || material > task.firstMaterial) continue;
+    binding.freed.push_back(table.find(label, -1));
+    for (const Access& access : task.accesses)
+      if (access.ofMaterial >= 0 && access.label->name == label)
+        binding.freed.push_back(table.find(label, access.ofMaterial));
   }
   std::erase(binding.freed, -1);
   return binding;
@@ -135,7 +163,8 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
     // Variables that no task of this list names were made by an earlier list; this list only carries them along.
     const auto known = labels.find(name);
     if (known != labels.end() && known->second->centring != Centring::particle) continue;
-    const int number = known == labels.end() ? table.find(name, material) : table.number(*known->second, material);
+    const bool isNamed = known != labels.end() && isOf(pruned_.kept, name, material);
+    const int number = isNamed ? table.number(*known->second, material) : table.find(name, material);
     if (number < 0 || table[number].label->centring != Centring::particle) continue;
     const bool isNew =
         produced.contains(name) && t + 1 < pruned_.kept.size();  // at the end of a list, values are old by then
@@ -152,7 +181,7 @@ void TaskGraph::checkCreated(std::size_t t) const {
     const bool created = std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& access) {
       return access.kind == AccessKind::creates && access.label->name == name;
     });
-    if (!created) missing += (missing.empty() ? "" : ", ") + name;
+    if (!created && !isOfOthers(pruned_.kept, name, task.range())) missing += (missing.empty() ? "" : ", ") + name;
   }
   if (!missing.empty())
     throw TaskError(

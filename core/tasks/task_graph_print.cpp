@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <ostream>
+#include <set>
 
 #include "core/tasks/task_graph.hpp"
 
@@ -25,10 +26,13 @@ std::string_view word(AccessKind kind) {
 
 void printAccesses(std::ostream& out, const Task& task, AccessKind kind) {
   std::string line;
+  std::set<std::string_view> ofOthers;
   for (const Access& access : task.accesses) {
-    if (access.kind != kind) continue;
+    const bool isOfOthers = access.ofMaterial >= 0;
+    if (access.kind != kind || (isOfOthers && !ofOthers.insert(access.label->name).second)) continue;
     line += line.empty() ? "" : ", ";
     line += access.label->name;
+    if (isOfOthers) line += " of other materials";
     if (access.ghost > 0) line += fmt::format(" (ghost {})", access.ghost);
   }
   if (!line.empty()) out << fmt::format("      {:<13} {}\n", word(kind), line);
@@ -42,7 +46,8 @@ void TaskGraph::print(std::ostream& out) const {
   for (const CompiledTask& compiled : tasks_) {
     const Task& task = compiled.task;
     std::string materials;
-    for (const std::string& material : task.materials) materials += (materials.empty() ? "" : ", ") + material;
+    for (std::size_t m = task.firstMaterial; m < task.materials.size(); ++m)
+      materials += (materials.empty() ? "" : ", ") + task.materials[m];
     out << fmt::format("  {:>2}  {}{}\n", ++number, task.name, materials.empty() ? "" : " [" + materials + "]");
     for (const AccessKind kind : {AccessKind::requiresOld, AccessKind::requiresNew, AccessKind::computes,
                                   AccessKind::modifies, AccessKind::creates})

@@ -9,6 +9,23 @@
 
 namespace tushar::tasks {
 
+/// Materials that follow others: their indices continue those of `before`. A component whose materials have different
+/// variables, such as bodies and the cohesive zones between them, declares separate tasks for both.
+template <class Material>
+struct Following {
+  std::vector<std::string> before;         ///< names of the materials before them
+  const std::vector<Material>* materials;  ///< must outlive the list
+
+  int first() const { return static_cast<int>(before.size()); }
+};
+/// The materials of `later`, whose indices continue those of `before`.
+template <class Before, class Material>
+Following<Material> following(const std::vector<Before>& before, const std::vector<Material>& later) {
+  Following<Material> result{{}, &later};
+  for (const Before& material : before) result.before.push_back(material.name);
+  return result;
+}
+
 /// The tasks of one phase of a run, in the order in which a component declares them.
 ///
 /// A task is added in the same way as a std::thread is started: a function and its arguments. Each access becomes one
@@ -38,6 +55,19 @@ class TaskList {
         [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
           body(context.patch(), materials[context.material()], bound.bind(context)...);
         });
+  }
+
+  /// The same for materials that follow others.
+  template <class Material, class Body, class... Arguments>
+  void perMaterial(std::string_view name, Body body, const Following<Material>& later, Arguments... arguments) {
+    check<On::material, Arguments...>();
+    std::vector<Access> accesses = declare<allowedIn(On::material)>(arguments...);
+    add(name, TaskKind::work, names(later), std::move(accesses),
+        [body, first = later.first(), materials = later.materials,
+         ... bound = std::move(arguments)](const TaskContext& context) {
+          body(context.patch(), (*materials)[context.material() - first], bound.bind(context)...);
+        });
+    tasks_.back().firstMaterial = later.first();
   }
 
   /// Adds a task that runs `body(patch, materials, arguments...)` once on each patch, with all materials: an access to
@@ -96,10 +126,24 @@ class TaskList {
         });
   }
 
+  /// The same for materials that follow others.
+  template <class Material, class Body, class... Arguments>
+  void newParticles(std::string_view name, Body body, const Following<Material>& later, Arguments... arguments) {
+    check<On::newParticles, Arguments...>();
+    std::vector<Access> accesses = declare<allowedIn(On::newParticles)>(arguments...);
+    add(name, TaskKind::newParticles, names(later), std::move(accesses),
+        [body, first = later.first(), materials = later.materials,
+         ... bound = std::move(arguments)](const TaskContext& context) {
+          body(context.patch(), (*materials)[context.material() - first], context.maker(), bound.bind(context)...);
+        });
+    tasks_.back().firstMaterial = later.first();
+  }
+
   /// Adds a relocation: afterwards, every particle is in the cell and on the patch that contain its `position`, which
   /// an earlier task must have computed. All particle variables that are needed afterwards are moved as well.
-  template <class Material, int D>
-  void relocate(const data::ParticleLabel<Vec<D>>& position, const std::vector<Material>& materials) {
+  /// `materials` are those of all particles, also if they are Following.
+  template <int D, class Materials>
+  void relocate(const data::ParticleLabel<Vec<D>>& position, const Materials& materials) {
     add({"relocate", TaskKind::relocate, names(materials), {{&position, AccessKind::requiresNew, 0}}, {}});
   }
 
@@ -140,6 +184,13 @@ class TaskList {
   [[gnu::noinline]] static std::vector<std::string> names(const std::vector<Material>& materials) {
     std::vector<std::string> result;
     for (const Material& material : materials) result.push_back(material.name);
+    return result;
+  }
+  /// The names of the materials before the later ones, and of these.
+  template <class Material>
+  [[gnu::noinline]] static std::vector<std::string> names(const Following<Material>& later) {
+    std::vector<std::string> result = later.before;
+    for (const Material& material : *later.materials) result.push_back(material.name);
     return result;
   }
 

@@ -41,6 +41,8 @@ class Validator {
       complain(task, access, "is used both with and without a material; use two labels");
     if (access.ofNone && access.writes() && !task.acrossMaterials)
       complain(task, access, "is written once for each material, but belongs to none; use acrossMaterials");
+    if (access.ofMaterial >= 0 && access.writes())
+      complain(task, access, "belongs to other materials than those of the task, which may only read it");
   }
 
   void checkProducer(const Task& task, const Access& access) {
@@ -56,10 +58,15 @@ class Validator {
   }
 
   void checkWriter(const Task& task, const Access& access) {
-    const bool added = produced_.insert(std::string(access.label->name)).second;
+    produced_.insert(std::string(access.label->name));
+    std::vector<MaterialRange>& written = written_[std::string(access.label->name)];
+    const MaterialRange range = task.rangeOf(access);
+    const bool isAgain =
+        std::any_of(written.begin(), written.end(), [&](const MaterialRange& other) { return range.overlaps(other); });
     const bool adds = access.label->centring == data::Centring::reduction || access.keeps;
-    if (!added && !adds && access.kind == AccessKind::computes)
+    if (isAgain && !adds && access.kind == AccessKind::computes)
       complain(task, access, "is computed a second time; use modifies to change it");
+    written.push_back(range);
   }
 
   /// Whether an access reads ghosts of particles in place: the patches of a rank read one another's particles directly,
@@ -87,6 +94,7 @@ class Validator {
 
   const Names& state_;
   Names produced_;
+  std::map<std::string, std::vector<MaterialRange>> written_;  ///< the materials of the writers of each variable
   Names carried_;  ///< names of variables that a relocation transferred from the old state
   std::map<std::string, bool> per_material_;
   std::string complaints_;

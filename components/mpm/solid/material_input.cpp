@@ -258,6 +258,7 @@ const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
               },
               {"contact"}, "how materials interact; several contacts are applied one after the other", describeContacts)
           .forms({contactForm()})
+          .list("cohesive_zone", &MaterialProperties::List::zones, zonesSchema(), "cohesive zones between bodies")
           .section("thermal_contact", &MaterialProperties::List::thermalContact, thermalContact)
           .check(noteCommonNames)
           .check(checkContacts);

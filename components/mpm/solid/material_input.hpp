@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/mpm/solid/cohesive/zone_input.hpp"
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "core/input/schema.hpp"
@@ -16,6 +17,7 @@ struct MaterialProperties {
   struct List {
     std::vector<Material> materials;
     std::vector<Contact> contacts;
+    std::vector<ZonesTag> zones;
     std::optional<ThermalContact> thermalContact;
   } mpm;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/solid/cohesive/zones.hpp"
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/loads/inserted_particles.hpp"
 #include "components/mpm/solid/loads/prescribed_deformation.hpp"
@@ -20,6 +21,7 @@ struct Problem {
   /// Prescribed motion of all bodies; null: forces move them.
   std::shared_ptr<const PrescribedDeformation> motion = nullptr;
   std::vector<Insertion> insertions = {};                      ///< insertions of particles, in the order of the file
+  std::vector<CohesiveZones> zones = {};                       ///< cohesive zones between the bodies
   std::shared_ptr<const Surroundings> surroundings = nullptr;  ///< surrounding medium; null: there is none
   std::vector<InputProblem> notes = {};                        ///< notes on bodies without particles
 };

@@ -10,7 +10,6 @@ namespace tushar::mpm::solid {
 /// Flags of Uintah that are not available, with the alternatives.
 inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"refine_particles", "use a larger <res> to give the body more particles"},
-    {"use_cohesive_zones", "give the bodies a <contact>"},
     {"do_scalar_diffusion", "heat conduction obeys the same equation"},
     {"coupled_flow_analysis", "there is only one phase"},
     {"AMR", "solids are on one level: choose a higher <resolution>"},
@@ -48,6 +47,7 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "g.normtraction",
                                                     "g.position",
                                                     "g.velocity_star",
+                                                    "g.displacement",
                                                     "g.externalforce",
                                                     "g.externalHeatRate",
                                                     "g.temperatureStar",
@@ -73,6 +73,8 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "p.eve",
                                                     "p.Kappa",
                                                     "particleCount",
+                                                    "czCount",
+                                                    "cz.tang",
                                                     "BndyTraction_xminus",
                                                     "BndyTraction_xplus",
                                                     "BndyTraction_yminus",
@@ -86,12 +88,26 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zminus",
                                                     "BndyContactCellArea_zplus"};
 
-/// Particle variables that Uintah's MohrCoulomb saves under names without `p.`, and older names of variables of
-/// Arenisca and of the position.
-inline const simulation::OtherNames olderLabels{
-    {"p.xx", "p.x"},        {"Suction", "p.Suction"},        {"SpecificVol", "p.SpecificVol"},
-    {"c", "p.cohesion"},    {"p.plasticStrainVol", "p.evp"}, {"p.elasticStrainVol", "p.eve"},
-    {"p.kappa", "p.Kappa"}, {"p.arenisca_kappa", "p.Kappa"}};
+/// Particle variables that Uintah's MohrCoulomb saves under names without `p.`, those of cohesive zones, and older
+/// names of variables of Arenisca and of the position.
+inline const simulation::OtherNames olderLabels{{"p.xx", "p.x"},
+                                                {"Suction", "p.Suction"},
+                                                {"SpecificVol", "p.SpecificVol"},
+                                                {"c", "p.cohesion"},
+                                                {"p.plasticStrainVol", "p.evp"},
+                                                {"p.elasticStrainVol", "p.eve"},
+                                                {"p.kappa", "p.Kappa"},
+                                                {"p.arenisca_kappa", "p.Kappa"},
+                                                {"cz.area", "p.czArea"},
+                                                {"cz.norm", "p.czNorm"},
+                                                {"cz.disptop", "p.czDispTop"},
+                                                {"cz.dispbottom", "p.czDispBottom"},
+                                                {"cz.separation", "p.czSeparation"},
+                                                {"cz.force", "p.czForce"},
+                                                {"cz.topmat", "p.czTopMat"},
+                                                {"cz.botmat", "p.czBotMat"},
+                                                {"cz.failed", "p.czFailed"},
+                                                {"cz.CZID", "p.particleID"}};
 
 template <class S>
 void addForeignTags(input::Schema<S>& mpm) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "components/mpm/solid/cohesive/zone_labels.hpp"
 #include "components/mpm/solid/constitutive/comp_mooney_rivlin.hpp"
 #include "components/mpm/solid/constitutive/comp_neo_hook.hpp"
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
@@ -25,25 +26,28 @@ bool storesAllStrain(const Problem& problem) {
 
 class EnergyBudget : public simulation::Analysis {
  public:
-  explicit EnergyBudget(bool storesAllStrain) : stores_all_strain_(storesAllStrain) {}
+  EnergyBudget(bool storesAllStrain, bool hasZones) : stores_all_strain_(storesAllStrain), has_zones_(hasZones) {}
 
   bool takesSeveralBoxes() const override { return true; }
   void schedule(TaskList&) const override {}
   void setTime(double, double) override {}
   std::vector<simulation::EnergyTerm> energies() const override {
     using enum simulation::EnergyTerm::Side;
-    return {{"kinetic energy at the start", &total::work[works::start], came},
-            {"work of loads and gravity", &total::work[works::external], came},
-            {"work of faces of the grid", &total::work[works::boundary], came},
-            {"work of contact", &total::work[works::contact], came},
-            {"kinetic energy", &total::kineticEnergy, went},
-            {"strain", stores_all_strain_ ? &total::strainEnergy : &total::work[works::strain], went},
-            {"plastic flow", &total::work[works::plastic], went},
-            {"viscosity and damping", &total::work[works::dissipated], went}};
+    std::vector<simulation::EnergyTerm> terms{
+        {"kinetic energy at the start", &total::work[works::start], came},
+        {"work of loads and gravity", &total::work[works::external], came},
+        {"work of faces of the grid", &total::work[works::boundary], came},
+        {"work of contact", &total::work[works::contact], came},
+        {"kinetic energy", &total::kineticEnergy, went},
+        {"strain", stores_all_strain_ ? &total::strainEnergy : &total::work[works::strain], went},
+        {"plastic flow", &total::work[works::plastic], went},
+        {"viscosity and damping", &total::work[works::dissipated], went}};
+    if (has_zones_) terms.push_back({"cohesive zones", &total::cohesiveWork, went});
+    return terms;
   }
 
  private:
-  bool stores_all_strain_;
+  bool stores_all_strain_, has_zones_;
 };
 
 std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level&) {
@@ -51,7 +55,8 @@ std::unique_ptr<simulation::Analysis> makeModule(const Component& component, con
   if (!solids || !solids->measuresWork())
     throw std::invalid_argument(
         "the energy budget is available only for solids with explicit time steps; remove the module");
-  return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
+  const Problem& problem = solids->problem();
+  return std::make_unique<EnergyBudget>(storesAllStrain(problem), !problem.zones.empty());
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ struct MpmSection {
   std::optional<double> longestDiagonal;
   bool removesLost = true;
   int minimumSubcycles = 1;
-  bool momentumForm = false, prescribesDeformation = false, insertsParticles = false;
+  bool momentumForm = false, prescribesDeformation = false, insertsParticles = false, usesZones = false;
   std::string deformationFile, insertionFile;
 };
 
@@ -137,6 +137,8 @@ void addSurroundings(Schema<MpmSection>& mpm) {
       .value("DoGranularMPM", &MpmSection::isGranular, false, "1",
              "after each step, particles that overlap with the sizes that they have at <critical_density> form "
              "clusters; each cluster of a MatTypeIdx moves to a material of its own")
+      .value("use_cohesive_zones", &MpmSection::usesZones, false, "1",
+             "whether the zones of each <cohesive_zone> hold bodies together")
       .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
       .value("computeColinearNormals", &MpmSection::oneNormal, true, "1",
              "for contacts of type friction, friction_bard and approach: true: bodies that meet at a node share one "
@@ -239,6 +241,7 @@ const Schema<MpmSection>& mpmSchema() {
 
 std::unique_ptr<Solids> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
   settleParticles(level, problem);
+  placeZones(level, problem);
   problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   return makeSolids(interpolator, level.dimension(), problem);
 }
@@ -302,17 +305,6 @@ void refuseFlat(const Level& level, const Location& where) {
                        "needs a grid in three dimensions: more than one cell along x, y and z"}});
 }
 
-/// Throws InputError at the location of <MPM> if particles would move along an axis that the grid does not use.
-void refuseShifts(const Level& level, const std::vector<Insertion>& insertions, const Location& where) {
-  std::array<bool, 3> isThin{true, true, true};
-  for (int d = 0; d < level.dimension(); ++d) isThin[level.axis(d)] = false;
-  for (const Insertion& insertion : insertions)
-    for (int axis = 0; axis < 3; ++axis)
-      if (isThin[axis] && insertion.shift[axis] != 0)
-        throw InputError({{where, "MPM/InsertParticlesFile",
-                           fmt::format("particles move along {}, along which the grid has one cell", "xyz"[axis])}});
-}
-
 /// The settings of the solids in a scene.
 struct ReadSolids {
   Interpolator interpolator;
@@ -346,6 +338,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   problem.insertions = readEntering(read, root, diagnostics);
   nameMaterials(problem.materials);
   settleGrains(problem, {read.isGranular, besideGas}, root, diagnostics);
+  settleZones(problem, properties.mpm.zones, {read.usesZones, besideGas, read.axisymmetric}, root, diagnostics);
   checkHeat(problem, root, diagnostics);
   checkProblem(problem, root, diagnostics);
   for (const Material& material : problem.materials)

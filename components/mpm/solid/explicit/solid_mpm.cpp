@@ -1,5 +1,6 @@
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
 
+#include "components/mpm/solid/cohesive/schedule_zones.hpp"
 #include "components/mpm/solid/explicit/tasks/integrate_acceleration.hpp"
 #include "components/mpm/solid/explicit/tasks/prescribe_motion.hpp"
 #include "components/mpm/solid/explicit/tasks/transmit_force.hpp"
@@ -111,6 +112,7 @@ void SolidMpm<D>::scheduleComputeSurface(TaskList& tasks, const NodeLabel<NodeRe
 template <int D>
 void SolidMpm<D>::scheduleIntegrateAcceleration(TaskList& tasks) const {
   scheduleSurroundingForce(tasks);
+  if (hasZones()) scheduleZoneForces<D>(tasks, problem_);
   tasks.perMaterial("mpm::computeAndIntegrateAcceleration", computeAndIntegrateAcceleration<D>, problem_.materials,
                     with(problem_.method), with(shapes_.ghostNodes), requiresOld(p::x<D>, shapes_.reach),
                     requiresOld(delT), modifies(g::record));
@@ -122,6 +124,7 @@ void SolidMpm<D>::scheduleIntegrateAcceleration(TaskList& tasks) const {
                     with(shapes_.ghostNodes), requiresOld(p::x<D>, shapes_.reach), modifies(g::record));
   schedulePrescribedMotion(tasks, g::record);
   if (transmitsForce()) scheduleTransmittedForce(tasks);
+  if (hasZones()) scheduleZoneMotion<D>(tasks, problem_);
 }
 
 template <int D>

@@ -28,8 +28,8 @@ class SolidMpm : public SolidsOf<D>, public simulation::CarefulSteps, public sim
 
  private:
   using Base = SolidsOf<D>;
-  using Base::clearsAllNodes, Base::frictionHasColor, Base::hasFriction, Base::hasPlanes, Base::isLoaded, Base::keeps,
-      Base::keepsSizes, Base::rubbingHeats, Base::transmitsForce;
+  using Base::clearsAllNodes, Base::frictionHasColor, Base::hasFriction, Base::hasPlanes, Base::hasZones,
+      Base::isLoaded, Base::keeps, Base::keepsSizes, Base::rubbingHeats, Base::transmitsForce;
   using Base::keeps_stress_, Base::problem_, Base::shapes_;
   using Base::scheduleApplyExternalLoads, Base::scheduleContact, Base::scheduleContactAtEnd, Base::scheduleCornerLoads,
       Base::scheduleDamage, Base::scheduleEndOfStep, Base::scheduleFriction, Base::scheduleHeatFlux,

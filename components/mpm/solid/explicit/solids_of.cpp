@@ -1,5 +1,6 @@
 #include "components/mpm/solid/explicit/solids_of.hpp"
 
+#include "components/mpm/solid/cohesive/schedule_zones.hpp"
 #include "components/mpm/solid/explicit/tasks/affine.hpp"
 #include "components/mpm/solid/explicit/tasks/corner_loads.hpp"
 #include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
@@ -37,6 +38,7 @@ SolidsOf<D>::SolidsOf(Problem problem, const ShapeTraits& shapes) : Solids(std::
 
 template <int D>
 void SolidsOf<D>::scheduleInitialize(TaskList& tasks) const {
+  if (hasZones()) scheduleNewZones<D>(tasks, problem_);
   scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
   tasks.perMaterial("mpm::computeInitialTimeStep", computeInitialTimeStep<D>, problem_.materials,
                     requiresNew(p::velocity<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
@@ -61,12 +63,14 @@ void SolidsOf<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 
 template <int D>
 std::string SolidsOf<D>::whyOneLevel() const {
+  if (hasZones()) return "cohesive zones do not look for nodes of finer cells";
   return transmitsForce() ? "a body with <is_force_transmitting_material> moves by the forces on all of it" : "";
 }
 
 template <int D>
 std::string SolidsOf<D>::whyOneBox() const {
   if (problem_.start.solution) return "the solution of <RunMMSProblem> fills the box around the boxes";
+  if (hasZones()) return "cohesive zones would glue bodies through walls";
   if (problem_.method.nonlocalLayers > 0) return "a nonlocal model averages over particles behind walls, too";
   return "";
 }
@@ -170,7 +174,8 @@ void SolidsOf<D>::scheduleEndOfStep(TaskList& tasks) const {
     tasks.perMaterial("mpm::insertParticles", insertParticles<D>, problem_.materials, with(problem_.insertions),
                       startTime(), requiresOld(delT), requiresOld(p::color), modifies(p::x<D>),
                       modifies(p::velocity<D>));
-  tasks.relocate(p::x<D>, problem_.materials);
+  hasZones() ? tasks.relocate(p::x<D>, following(problem_.materials, problem_.zones))
+             : tasks.relocate(p::x<D>, problem_.materials);
 }
 
 /// Adds the forces that act at the corners of particles.
@@ -223,6 +228,7 @@ void SolidsOf<D>::scheduleDiagnostics(TaskList& tasks) const {
   for (std::size_t k = 0; k < total::work.size(); ++k)
     tasks.perMaterial("mpm::sumWork", sumWork, problem_.materials, with(static_cast<int>(k)), requiresOld(p::work),
                       computes(total::work[k]));
+  if (hasZones()) scheduleZoneTotals<D>(tasks, problem_);
   if (!is_damageable_)
     tasks.perMaterial("mpm::showSound", showSound, problem_.materials, requiresOld(p::mass), computes(p::localized));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);

@@ -65,6 +65,7 @@ class SolidsOf : public Solids {
   bool frictionHasColor() const {
     return anyContact([](const Contact& contact) { return !contact.frictionOfColor.empty(); });
   }
+  bool hasZones() const { return !problem_.zones.empty(); }
   bool rubbingHeats() const { return hasFriction() && problem_.method.contactHeats && problem_.method.conductsHeat; }
   bool transmitsForce() const {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(),
@@ -72,7 +73,7 @@ class SolidsOf : public Solids {
   }
   /// Whether untouched nodes must be 0, because tasks other than those of the solids read them.
   bool clearsAllNodes() const {
-    return !problem_.contacts.empty() || problem_.method.loadsAtCorners || problem_.surroundings;
+    return !problem_.contacts.empty() || problem_.method.loadsAtCorners || problem_.surroundings || hasZones();
   }
   bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }
   KeptSizes keepsSizes() const {

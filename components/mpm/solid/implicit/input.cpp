@@ -124,6 +124,7 @@ const Schema<Section>& sectionSchema() {
     refuseSwitch(mpm, "DoGranularMPM", "only explicit steps let grains separate");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have artificial viscosity");
     refuseSwitch(mpm, "UsePrescribedDeformation", "only explicit steps can follow a prescribed deformation");
+    refuseSwitch(mpm, "use_cohesive_zones", "only explicit steps have cohesive zones; give the bodies a <contact>");
     refuseSwitch(mpm, "InsertParticles", "give every body its position at the start");
     refuseSwitch(mpm, "keepPressBCNormalToSurface", "a pressure keeps the initial direction of its surface");
     refuseSwitch(mpm, "temperature_solve", "nodes take the mean temperature of their particles");
@@ -286,6 +287,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
   nameMaterials(problem.materials);
   settleGrains(problem, {}, root, diagnostics);
+  settleZones(problem, properties.mpm.zones, {}, root, diagnostics);
   checkHeat(problem, root, diagnostics);
   refuseWithoutTangent(problem, root, diagnostics);
   refuseExplicitOnly(problem, root, diagnostics);

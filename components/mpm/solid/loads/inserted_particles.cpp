@@ -4,9 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
-#include "core/input/values.hpp"
+#include "components/mpm/solid/number_lines.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -16,19 +15,6 @@ using input::Diagnostics;
 
 /// Number of values that describe an insertion in a file.
 constexpr std::size_t insertionSize = 8;
-
-/// Reads the numbers in a line.
-std::vector<double> numbersOf(const std::string& line, const Location& where, Diagnostics& diagnostics) {
-  std::vector<double> numbers;
-  std::istringstream words(line);
-  std::string word;
-  while (words >> word) {
-    const auto number = input::parse<double>(word).value;
-    if (!number) diagnostics.error(where, {}, fmt::format("found '{}', expected a number", word));
-    numbers.push_back(number.value_or(0));
-  }
-  return numbers;
-}
 
 }  // namespace
 
@@ -43,8 +29,9 @@ std::vector<Insertion> readInsertions(const std::string& path, const Location& n
   std::string line;
   for (int at = 1; std::getline(file, line); ++at) {
     const Location where{path, at, 0};
-    const std::vector<double> n = numbersOf(line, where, diagnostics);
-    if (n.empty()) continue;
+    const auto numbers = numbersInLine(line, where, diagnostics);
+    if (!numbers || numbers->empty()) continue;
+    const std::vector<double>& n = *numbers;
     if (n.size() == insertionSize)
       insertions.push_back({n[0], n[1], {n[2], n[3], n[4]}, {n[5], n[6], n[7]}});
     else
@@ -54,6 +41,16 @@ std::vector<Insertion> readInsertions(const std::string& path, const Location& n
                                     n.size()));
   }
   return insertions;
+}
+
+void refuseShifts(const Level& level, const std::vector<Insertion>& insertions, const Location& where) {
+  std::array<bool, 3> isThin{true, true, true};
+  for (int d = 0; d < level.dimension(); ++d) isThin[level.axis(d)] = false;
+  for (const Insertion& insertion : insertions)
+    for (int axis = 0; axis < 3; ++axis)
+      if (isThin[axis] && insertion.shift[axis] != 0)
+        throw InputError({{where, "MPM/InsertParticlesFile",
+                           fmt::format("particles move along {}, along which the grid has one cell", "xyz"[axis])}});
 }
 
 }  // namespace tushar::mpm::solid

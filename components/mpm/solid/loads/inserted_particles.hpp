@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/vec.hpp"
+#include "core/core.hpp"
 #include "core/input/diagnostics.hpp"
 
 namespace tushar::mpm::solid {
@@ -23,5 +23,7 @@ struct Insertion {
 /// [m/s]. Reports problems to the diagnostics with file and line, and problems of the whole file at the tag that names
 /// the file.
 std::vector<Insertion> readInsertions(const std::string& path, const Location& named, input::Diagnostics& diagnostics);
+/// Throws InputError at the location of <MPM> if particles would move along an axis that the grid does not use.
+void refuseShifts(const Level& level, const std::vector<Insertion>& insertions, const Location& where);
 
 }  // namespace tushar::mpm::solid
