@@ -71,6 +71,18 @@ bool isReversed(const Level& level, const Problem& problem, const CohesiveZone& 
   return isIn(bottom, above) && isIn(top, below) && !isIn(top, above) && !isIn(bottom, below);
 }
 
+/// Exchanges both bodies of zones whose normals point from the top to the bottom body; returns the number of these
+/// zones.
+std::size_t turn(const Level& level, const Problem& problem, CohesiveZones& set) {
+  std::size_t count = 0;
+  for (CohesiveZone& zone : set.zones) {
+    if (!isReversed(level, problem, zone)) continue;
+    std::swap(zone.bottom, zone.top);
+    ++count;
+  }
+  return count;
+}
+
 void refuseOutOfPlane(const Problem& problem, const CohesiveZones& set) {
   for (const CohesiveZone& zone : set.zones)
     for (int axis = 0; axis < 3; ++axis)
@@ -92,13 +104,12 @@ void placeZonesIn(const Level& level, Problem& problem) {
     if (outside > 0)
       problem.notes.push_back(
           {set.where, tag, fmt::format("{} of {} zones are outside the grid and left out", outside, all)});
-    const auto reversed = std::count_if(set.zones.begin(), set.zones.end(),
-                                        [&](const CohesiveZone& zone) { return isReversed(level, problem, zone); });
+    const std::size_t reversed = turn(level, problem, set);
     if (reversed > 0)
       problem.notes.push_back(
           {set.where, tag,
-           fmt::format("the normals of {} zones point from the top material to the bottom material, so that opening "
-                       "counts as compression: exchange the last two columns of the file",
+           fmt::format("the normals of {} zones point from the top material to the bottom material, so the two "
+                       "materials of these zones are exchanged; in Uintah, their opening counts as compression",
                        reversed)});
   }
 }

@@ -27,8 +27,8 @@ struct ZoneSwitches {
 /// otherwise notes that the tags have no effect. Called after the materials have their names.
 void settleZones(Problem& problem, const std::vector<ZonesTag>& tags, const ZoneSwitches& switches,
                  const input::Element& root, input::Diagnostics& diagnostics);
-/// Removes zones outside the grid. Adds a note on these, and on zones whose normals point the wrong way. Throws
-/// InputError for normals along an axis that the grid does not use.
+/// Removes zones outside the grid, and exchanges the bodies of zones whose normals point the wrong way; notes both.
+/// Throws InputError for normals along an axis that the grid does not use.
 void placeZones(const Level& level, Problem& problem);
 
 }  // namespace tushar::mpm::solid
