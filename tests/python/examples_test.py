@@ -21,6 +21,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 
+import numpy as np
+
 with contextlib.suppress(ImportError):
     import yt
     yt.set_log_level("error")
@@ -111,6 +113,18 @@ class StressPath(InAFolder):
         self.assertLess(max(mises), 1e3, "pressed all around")
         example.draw(archive, "path.png")
         self.assertGreater(pathlib.Path("path.png").stat().st_size, 1000)
+
+
+class TractionSeparation(InAFolder):
+    def test_is_that_of_the_law_and_is_drawn(self):
+        example = example_of("traction_separation")
+        archive = tushar.run("ups/solid/glued_blocks.ups", {"Time/maxTime": 0.02}).archive
+        opening, sliding, pull, drag = example.tractions(archive)
+        self.assertGreater(opening.max(), 3e-3)
+        self.assertLess(np.abs(pull - example.law(archive)[0](opening)).max(), 1e-6)
+        self.assertLess(max(sliding.max(), drag.max()), 1e-6, "mode I")
+        example.draw([archive], "law.png")
+        self.assertGreater(pathlib.Path("law.png").stat().st_size, 1000)
 
 
 @unittest.skipIf(WITHOUT["scipy"], WITHOUT["scipy"])
