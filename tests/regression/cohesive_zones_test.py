@@ -18,8 +18,8 @@ from uda import Folder
 SCENE = "ups/solid/glued_blocks.ups"
 TEXT = (ROOT / SCENE).read_text()
 ZONES = (ROOT / "ups/solid/glued_blocks.txt").read_text()
-# Of the scene: strengths [Pa], lengths [m], area of the glue [m^2], half of the mass of a block per area of glue [kg/m^2]
-# (the reduced mass of both), relative velocity at the start [m/s].
+# Of the scene: strengths [Pa], lengths [m], area of the glue [m^2], half of the mass of a block per area of glue
+# [kg/m^2] (the reduced mass of both), relative velocity at the start [m/s].
 SIGMA, TAU, DELTA, AREA, MASS, SPEED = 400, 500, 1e-3, .04, 150, .2
 OPENS = ()
 BODY = "MaterialProperties/MPM/material[{}]/geom_object/velocity={}"
@@ -58,7 +58,8 @@ class TwoBlocks(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             archive = tushar.open(archive_of(SCENE, folder, *sets))
             for output in archive[:]:
-                jump, force, area, normal = (output[f"p.cz{name}"][:] for name in ("Separation", "Force", "Area", "Norm"))
+                jump, force, area, normal = (output[f"p.cz{name}"][:]
+                                             for name in ("Separation", "Force", "Area", "Norm"))
                 stress = force / area[:, None]
                 parts = []
                 for vector in (jump, stress):
@@ -161,7 +162,8 @@ class Bits(unittest.TestCase):
     def test_are_the_same_on_any_patches_threads_and_ranks(self):
         prints = set()
         for layout, threads, ranks in (("1x1x1", 1, 1), ("4x3x1", 2, 1), ("2x4x1", 1, 2), ("4x2x1", 1, 4)):
-            done = run(SCENE, *self.SETS, options=("--quiet", "-layout", layout, "-nthreads", str(threads)), ranks=ranks)
+            options = ("--quiet", "-layout", layout, "-nthreads", str(threads))
+            done = run(SCENE, *self.SETS, options=options, ranks=ranks)
             self.assertEqual(done.code, 0, done.err)
             prints.add((done.report["fingerprint"], done.report["steps"]))
         self.assertEqual(len(prints), 1)
@@ -184,11 +186,12 @@ class Messages(RefusedSceneTest):
 
     def test_say_what_a_scene_lacks(self):
         for before, after, sentence in (
-                ("<cz_filename>glued_blocks.txt", "<cz_filename>none.txt", "none.txt' cannot be read: there is no such "),
+                ("<cz_filename>glued_blocks.txt", "<cz_filename>none.txt", "none.txt' cannot be read: there is no such"),
                 ("<sig_max>400</sig_max>", "", "missing tag <sig_max> in <cohesive_zone>"),
                 ("<delta_t>0.001", "<delta_t>0", "delta_t: found '0'"),
                 ("<delta_n>", "<do_rotation>true</do_rotation><delta_n>", "zones keep their normals"),
-                ("<interpolator>", "<axisymmetric>true</axisymmetric><interpolator>", "not available with <axisymmetric>"),
+                ("<interpolator>", "<axisymmetric>true</axisymmetric><interpolator>",
+                 "is not available with <axisymmetric>"),
                 (TEXT[TEXT.index("      <cohesive_zone"):TEXT.index("      <contact>")], "",
                  "missing tag <cohesive_zone> in <MPM>: needed with <use_cohesive_zones>")):
             with self.subTest(after):

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Draws the traction across cohesive zones against their separation, with the law of the scene.
 
-    python3 traction_separation.py glued_blocks.uda picture.png       of runs that saved cz.area, .norm, .force, .separation
+    python3 traction_separation.py glued_blocks.uda picture.png
+
+The runs must have saved cz.area, cz.norm, cz.force and cz.separation.
 """
 import argparse
 import pathlib
@@ -30,7 +32,8 @@ def tractions(archive):
 def law(archive):
     """The traction in modes I and II, as functions of the jump [m] (Xu & Needleman 1994)."""
     tag = ElementTree.parse(pathlib.Path(archive.folder, "input.xml")).getroot().find(".//cohesive_zone")
-    sigma, tau, normal, tangential = (float(tag.findtext(name)) for name in ("sig_max", "tau_max", "delta_n", "delta_t"))
+    sigma, tau = (float(tag.findtext(name)) for name in ("sig_max", "tau_max"))
+    normal, tangential = (float(tag.findtext(name)) for name in ("delta_n", "delta_t"))
     return (lambda d: sigma * d / normal * np.exp(1 - d / normal),
             lambda d: tau * np.sqrt(2 * np.e) * d / tangential * np.exp(-(d / tangential) ** 2))
 
