@@ -186,7 +186,8 @@ class Messages(RefusedSceneTest):
 
     def test_say_what_a_scene_lacks(self):
         for before, after, sentence in (
-                ("<cz_filename>glued_blocks.txt", "<cz_filename>none.txt", "none.txt' cannot be read: there is no such"),
+                ("<cz_filename>glued_blocks.txt", "<cz_filename>none.txt",
+                 "none.txt' cannot be read: there is no such file"),
                 ("<sig_max>400</sig_max>", "", "missing tag <sig_max> in <cohesive_zone>"),
                 ("<delta_t>0.001", "<delta_t>0", "delta_t: found '0'"),
                 ("<delta_n>", "<do_rotation>true</do_rotation><delta_n>", "zones keep their normals"),
