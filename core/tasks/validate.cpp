@@ -61,8 +61,9 @@ class Validator {
     produced_.insert(std::string(access.label->name));
     std::vector<MaterialRange>& written = written_[std::string(access.label->name)];
     const MaterialRange range = task.rangeOf(access);
-    const bool isAgain =
-        std::any_of(written.begin(), written.end(), [&](const MaterialRange& other) { return range.overlaps(other); });
+    const bool isAgain = std::any_of(written.begin(), written.end(), [&](const MaterialRange& other) {
+      return range.first < 0 || other.first < 0 || range.overlaps(other);
+    });
     const bool adds = access.label->centring == data::Centring::reduction || access.keeps;
     if (isAgain && !adds && access.kind == AccessKind::computes)
       complain(task, access, "is computed a second time; use modifies to change it");
