@@ -135,12 +135,6 @@ void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const std::size_t length = cells.extent(0);
   if (moves.firstIncoming.hasOpenRows() || !moves.firstIncoming.isOf(cells.rows(), length))
     moves.firstIncoming.reset(cells.rows(), length);
-}
-
-template <int D>
-void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids,
-                           PatchMoves& moves) {
-  forgetIncoming(patch, moves);
   moves.departed.clear();
   moves.crossing = 0;
   moves.outgoing.clear();
@@ -148,6 +142,12 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
   moves.arrivals.clear();
   moves.escape.reset();
   moves.losing = {};
+}
+
+template <int D>
+void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids,
+                           PatchMoves& moves) {
+  forgetIncoming(patch, moves);
   if (set.owned() == 0) return;
   const grid::Level& level = warehouse_->grid().finest();
   const grid::Box& cells = patch.cells();
