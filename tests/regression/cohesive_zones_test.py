@@ -199,6 +199,11 @@ class Messages(RefusedSceneTest):
                 self.assertIn(before, TEXT)
                 self.assert_refused(TEXT.replace(before, after), sentence)
 
+    def test_need_a_grid_of_one_box(self):
+        beside = "<Box><lower>[0.4,0,0]</lower><upper>[0.8,0.4,0.1]</upper><resolution>[4,4,1]</resolution></Box>"
+        text = TEXT.replace("</Box>", "</Box>" + beside, 1).replace("<periodic>[1,0,0]</periodic>", "")
+        self.assert_refused(text, "needs a grid of one box: cohesive zones would glue bodies through walls")
+
     def test_name_the_line_of_the_file(self):
         for zones, sentence in ((ZONES + "1 2\n", "glued_blocks.txt:9:0: found 2 numbers, expected 12"),
                                 (ZONES.replace("0 1 0 1 0 0 0 1\n", "0 0 1 1 0 0 0 1\n", 1),
