@@ -46,8 +46,10 @@ class SmallCells {
     forEachRow<D>(rows, [&](const Index<D>& first, int count) {
       std::uint8_t* row = marks.row(first);
       const double *free = &state_.free[first], *mass = &state_.held.density[first];
+      const double* energy = &state_.held.totalEnergy[first];
 #pragma GCC ivdep
-      for (int i = 0; i < count; ++i) row[i] = static_cast<std::uint8_t>((free[i] < smallFreeVolume) & (mass[i] != 0));
+      for (int i = 0; i < count; ++i)
+        row[i] = static_cast<std::uint8_t>((free[i] < smallFreeVolume) & ((mass[i] != 0) | (energy[i] != 0)));
     });
     known_ = box;
     choices_.resize(box.size());
@@ -70,9 +72,11 @@ class SmallCells {
   bool isTarget(const Index<D>& cell) const { return choiceOf(cell) == cell; }
   /// Whether a small cell gives its gas to a given neighbour that may receive it.
   bool gives(const Index<D>& cell, const Index<D>& to) const { return isSmall(cell) && choiceOf(cell) == to; }
-  /// Whether a cell has little free volume, but some.
+  /// Whether a cell has little free volume, and some content: where a wall closes a cell, the work of the wall may
+  /// remain without the gas.
   bool isSmall(const Index<D>& cell) const {
-    return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
+    return state_.free[cell] < smallFreeVolume &&
+           (state_.held.density[cell] != 0 || state_.held.totalEnergy[cell] != 0);
   }
 
   /// Calls `visit(neighbour)` for the surrounding cells that are on the grid.
@@ -126,11 +130,11 @@ class SmallCells {
       if ((at[d] == cell[d]) != (other[d] == cell[d])) return other[d] == cell[d];
     return false;
   }
-  /// The score of a neighbour with more free volume; -1 for others. Neighbours that are not small have the highest
-  /// scores.
+  /// The score of a neighbour with more free volume, by more than round-off; -1 for others. Neighbours that are not
+  /// small have the highest scores.
   double scoreOf(const Index<D>& cell, const Index<D>& at) const {
     const double room = state_.free[at], own = state_.free[cell];
-    if (!(room > own) || room < leastFreeVolume) return -1;
+    if (!(room > own + offRoundShares) || room < leastFreeVolume) return -1;
     if (room < smallFreeVolume && state_.held.density[at] == 0) return -1;  // an empty hole
     double score = room >= smallFreeVolume ? 100 : 0;
     int apart = 0, axis = 0;
