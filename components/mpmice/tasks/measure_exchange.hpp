@@ -179,8 +179,8 @@ void measureLeak(const Patch& patch, const std::vector<mpm::solid::Material>&, c
                  CellView<const double> before, CellView<double> leak) {
   const FreeSpace<D> space(patch.level(), settings, cells);
   const auto mayLeak = [&](const Index<D>& cell, int d) {
-    return flow[cell][d] * flow[cell + Index<D>::unit(d)][d] > 0 && !space.isAtSide(cell, d, 0) &&
-           !space.isAtSide(cell, d, 1);
+    return !space.isAtSide(cell, d, 0) && !space.isAtSide(cell, d, 1) &&
+           flow[cell][d] * flow[cell + Index<D>::unit(d)][d] > 0;
   };
   LeakyCells<D> leaky(patch);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
