@@ -66,6 +66,23 @@ TEST(SmallCells, ThatAreMirroredGiveTheirGasToMirroredNeighbours) {
     }
 }
 
+TEST(SmallCells, OfEqualSizeKeepTheirGas) {
+  for (const double roundOff : {-1e-12, 0.0, 1e-12}) {
+    Sharing<1> gas(7);
+    for (int cell = 0; cell < 7; ++cell) gas.fill({cell}, 0.3 + (cell == 3 ? roundOff : 0));
+    for (int cell = 0; cell < 7; ++cell) EXPECT_EQ(gas.targetOf({cell}), Index<1>{cell});
+  }
+}
+
+TEST(SmallCells, WithWorkThatAWallLeavesGiveIt) {
+  Sharing<1> gas(6);
+  gas.fill({3}, 0);
+  gas.before.energy.cells()[Index<1>{3}] = 0.1;
+  gas.share();
+  EXPECT_EQ(gas.after.energy.cells()[Index<1>{3}], 0);
+  EXPECT_DOUBLE_EQ(sumOf(gas.after.energy.values), 5 * 2.5 + 0.1);
+}
+
 TEST(SmallCells, GiveTheirGasToTheNeighbourWithTheWidestWay) {
   Sharing<1> gas(8);
   gas.fill({2}, 0.3);

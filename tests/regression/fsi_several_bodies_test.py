@@ -45,6 +45,9 @@ BLOCKS = with_second_body(
     (("<velocity>[0,0,0]", "<velocity>[1,0,0]"), ('name="disc"', 'name="right"'), ('label="disc"', 'label="right"'),
      ("[0.3,0.3,0]</min><max>[0.5,", "[0.5,0.3,0]</min><max>[0.7,")))
 
+RIGID_BLOCKS = changed(BLOCKS, ("<density>50<", "<is_force_transmitting_material>true</is_force_transmitting_material>"
+                                                "<density>50<"))
+
 
 def with_two_gases(text):
     """Returns BLOCKS with a lighter gas of another law in the right half."""
@@ -90,6 +93,12 @@ class Parting(SceneTest):
 
     def test_of_blocks_lets_each_of_two_gases_in(self):
         self.assert_filled(with_two_gases(BLOCKS), "TotalMass-gas", "TotalMass-other")
+
+    def test_of_rigid_blocks_with_thin_walls_ends_where_a_wall_closes_a_cell(self):
+        text = changed(RIGID_BLOCKS, ("<ICE><adv", "<ICE><thin_walls>true</thin_walls><adv"))
+        done = run(self.scene(text), *fsi.resolution("carried_disc", 32), "Time/maxTime=0.05")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertLess(done.report["retries"], 5)
 
     def test_of_blocks_is_not_held_up_by_friction(self):
         """Gas compresses the surfaces on both sides of a gap, so their stress does not tell whether they touch."""
