@@ -113,6 +113,17 @@ class Parting(SceneTest):
         self.assertLess(max(row[1] for row in totals) / totals[0][1] - 1, 1e-6)
 
 
+class Sliding(SceneTest):
+    def test_of_blocks_at_mach_7_ends_although_walls_of_one_corner_move_apart(self):
+        text = changed(BLOCKS, ("[0.3,0.3,0]</min><max>[0.5,0.7", "[0.3,0.3,0]</min><max>[0.6,0.5"),
+                       ("[0.5,0.3,0]</min><max>[0.7,0.7", "[0.3,0.5,0]</min><max>[0.6,0.7"),
+                       ("<velocity>[-1,", "<velocity>[-7,"), ("<velocity>[1,", "<velocity>[7,"),
+                       ('type="mpmice"', 'type="rmpmice"'))
+        done = run(self.scene(text), *fsi.resolution("carried_disc", 24), "Time/maxTime=0.0143")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual(done.report["retries"], 0)
+
+
 class Conservation(ConservationTest):
     SETS = (*fsi.resolution("carried_disc", 32), "Time/maxTime=0.1")
 

@@ -27,6 +27,22 @@ class CellWalls {
     slip_ = facingOneWay<D>(level, faces_);
   }
   bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
+  /// The velocities of the walls at the lower and upper faces along each axis [m/s]; undefined where there is none.
+  using Velocities = std::array<std::array<Vec<D>, 2>, D>;
+  /// Lets the gas slip less if walls do not form one oblique wall, because they belong to bodies that slide along each
+  /// other: half as much if their velocities differ by a quarter of the speed of sound.
+  void separate(const Velocities& walls, const euler::Gas& gas) {
+    const Vec<D>* first = nullptr;
+    double apart = 0;
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        if (!hasWall(d, side)) continue;
+        if (first) apart = std::max(apart, (walls[d][side] - *first).squaredNorm());
+        if (!first) first = &walls[d][side];
+      }
+    const double c2 = gas.soundSpeedSquared(w_[euler::kDensity], w_[euler::kPressure<D>]);
+    slip_ *= c2 / (c2 + 16 * apart);
+  }
   /// Speed at which the gas approaches a wall [m/s].
   double closing(const Vec<D>& wallVelocity, int axis, int side) const {
     Vec<D> relative;
@@ -83,18 +99,22 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   FreeSpace<D> space(level, settings, cells);
   space.measure(near);
   const BodiesAtNodes<D> bodies(level, records);
+  namespace lane = mpm::solid::lane;
   near.forEachActingIn(patch.cells(), [&](const Index<D>& cell) {
     if (space.isEmpty(cell) || space.isOpenAround(cell)) return;
     const euler::Gas law = lawAt<D>(settings, cells.held, cells.free[cell], cell);
-    const CellWalls<D> ofCell(level, space, cell, cells.primitive(law, cell));
-    for (int d = 0; d < D; ++d) {
-      const auto on = [&](const Index<D>& face, int side) {
-        if (!ofCell.hasWall(d, side)) return 0.0;
-        return pressureOn(law, cell, ofCell, bodies.velocityAt(face, d, mpm::solid::lane::velocity), d, side);
-      };
-      walls.below[cell][d] = on(cell, 0);
-      walls.above[cell][d] = on(cell + Index<D>::unit(d), 1);
-    }
+    CellWalls<D> ofCell(level, space, cell, cells.primitive(law, cell));
+    typename CellWalls<D>::Velocities velocities;
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1})
+        if (ofCell.hasWall(d, side))
+          velocities[d][side] = bodies.velocityAt(side == 0 ? cell : cell + Index<D>::unit(d), d, lane::velocity);
+    if (records.size() > 1) ofCell.separate(velocities, law);
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1})
+        if (ofCell.hasWall(d, side))
+          (side == 0 ? walls.below : walls.above)[cell][d] =
+              pressureOn(law, cell, ofCell, velocities[d][side], d, side);
   });
 }
 
