@@ -200,10 +200,11 @@ const Schema<Material>& materialSchema() {
                "in explicit steps, its stress exerts no force, and its velocities are updated by FLIP even with XPIC2; "
                "both also apply to the master of a contact. In implicit steps, it must be the master of a <contact> of "
                "type rigid or specified")
-        .value(
-            "is_force_transmitting_material", &Material::transmitsForce, false, "1",
-            "in explicit steps, it moves as one rigid body under its loads and the forces of the <contact> of type "
-            "rigid or specified of which it is the master; gravity, damping and the sides of the grid do not act on it")
+        .value("is_force_transmitting_material", &Material::transmitsForce, false, "1",
+               "in explicit steps, it moves as one rigid body under its loads and the forces of the <contact> of type "
+               "rigid or specified of which it is the master; gravity, damping and the sides of the grid do not act on "
+               "it. All of it is accelerated alike, so it moves as one only if its initial velocity is the same "
+               "everywhere")
         .value("possible_alpha_material", &Material::mayLeadContact, true, "1",
                "for contacts of type friction_LR, friction_LRVar and specified_friction: true: normals may point out "
                "of this material; false: it slides only at nodes where two other materials meet")
