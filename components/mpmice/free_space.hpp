@@ -168,10 +168,11 @@ void FreeSpace<D>::measure(const NearBodies<D>& near) {
   forEachRow<D>(around, [&](const Index<D>& first, int count) {
     const double *free = &cells_.free[first], *mass = &cells_.held.density[first];
     double* room = &rooms[offsetIn<D>(around, first)];
-    const double entered = fills_vacuum_ ? -1 : 0, shut = fills_vacuum_ ? 0 : closed;
+    const bool fillsVacuum = fills_vacuum_;
 #pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
-      const double own = roomOf(free[i]), open = mass[i] > 0 ? own : shut + entered * own;
+      const double own = roomOf(free[i]), ofVacuum = fillsVacuum ? -own : closed;
+      const double open = mass[i] > 0 ? own : ofVacuum;
       room[i] = free[i] < leastFreeVolume ? closed : open;
     }
   });

@@ -27,21 +27,22 @@ euler::State<D, K> fluxIntoVacuum(const euler::State<D, K>& gas, double gamma, i
 
 /// Sets the fluxes through the lower faces of the cells of `faces` that have gas on one side only, as if these faces
 /// were completely open. `w` contains the gas of the cells.
-template <int D, int Axis, class G>
+template <int D, int Axis, class G, int K = euler::kGases<G>>
 void flowIntoVacuum(const G& gas, const FreeSpace<D>& space, const NearBodies<D>& near, const Box& faces,
-                    euler::Rows<D, euler::kGases<G>>& w, euler::Rows<D, euler::kGases<G>>& flux) {
+                    euler::Rows<D, K>& w, euler::Rows<D, K>& flux) {
+  const auto gammaOf = [&]([[maybe_unused]] const euler::State<D, K>& state) {
+    if constexpr (K > 1)
+      return euler::lawIn<D>(gas, state).alike().gamma;
+    else
+      return gas.gamma;
+  };
   near.forEachActingIn(faces, [&](const Index<D>& above) {
     const Index<D> below = above - Index<D>::unit(Axis);
     if (!space.isInGrid(above, Axis)) return;
     if (space.isEmpty(above) == space.isEmpty(below) || !(space.aperture(above, Axis, 0) > 0)) return;
     const int side = space.isEmpty(above) ? 1 : -1;
     const auto from = euler::load<D>(w.at(side > 0 ? below : above), 0);
-    double gamma = 0;
-    if constexpr (euler::kGases < G >> 1)
-      gamma = euler::lawIn<D>(gas, from).alike().gamma;
-    else
-      gamma = gas.gamma;
-    euler::store<D>(flux.at(above), 0, fluxIntoVacuum<D, Axis, euler::kGases<G>>(from, gamma, side));
+    euler::store<D>(flux.at(above), 0, fluxIntoVacuum<D, Axis, K>(from, gammaOf(from), side));
   });
 }
 

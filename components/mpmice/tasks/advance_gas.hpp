@@ -111,7 +111,8 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   fresh.rims.masses.keep(block, Axis, work.flux);
   euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh.held);
   if constexpr (constexpr int K = euler::kGases<G>; K > 1)
-    addToVacuum<D, Axis, K>(exchange.space(), near, block, ratio, work.flux, fresh.held.shares);
+    if (exchange.fillsVacuum())
+      addToVacuum<D, Axis, K>(exchange.space(), near, block, ratio, work.flux, fresh.held.shares);
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 

@@ -136,7 +136,8 @@ void addKinds(Schema<ContactSection>& contact) {
       "(synonyms): bodies separate freely and slide with friction, as in Uintah, which tests the pressure of each body "
       "separately. friction_conserving: the same, but bodies share one normal and are in contact only if the stresses "
       "of all of them are compressive, which conserves momentum. approach: as friction, but only while bodies approach "
-      "each other. friction_LR: bodies separate freely, conserve momentum and slide with friction along the plane that "
+      "each other; so do friction, friction_bard and friction_conserving in a gas. friction_LR: bodies separate "
+      "freely, conserve momentum and slide with friction along the plane that "
       "separates their particles, found by logistic regression (Nairn, Hammerquist & Smith 2020). friction_LRVar: the "
       "same, with mu as a function of the color of the master. specified_friction: bodies separate from a master with "
       "prescribed motion, and slide on it along such planes");
