@@ -22,7 +22,8 @@ class Build(unittest.TestCase):
         (self.here / "tools/lib").mkdir(parents=True)
         for name in ("build.sh", "build_target"):
             shutil.copy(ROOT / "tools/lib" / name, self.here / "tools/lib")
-        (self.here / "build/release").mkdir(parents=True)
+        (self.here / "build/release/modules").mkdir(parents=True)
+        (self.here / "build/release/modules/tushar_heat.so").touch()
         (self.here / "build/release/build.ninja").touch()
 
     def commands(self, ninja, each=60):
@@ -77,6 +78,16 @@ class Build(unittest.TestCase):
                          f"{line}1 of 2{line}2 of 2\n")
         failed = self.build_on_terminal("echo '[1/3] Building CXX object a.o'; echo 'a.cpp:1: error'; exit 1")
         self.assertTrue(failed.startswith(f"{line}1 of 3\n[1/3] Building"), failed)
+
+    def test_says_at_once_that_it_builds_a_module(self):
+        # ninja names a file when it is done; until then, minutes may pass.
+        module = self.here / "build/release/modules/tushar_heat.so"
+        module.unlink()
+        command = self.commands("true")["build_target"]
+        said = "tushar: building the module heat, which is needed for the first time\n"
+        self.assertEqual(subprocess.run(command, capture_output=True, text=True).stderr, said)
+        module.touch()  # by another rank
+        self.assertEqual(subprocess.run(command, capture_output=True, text=True).stderr, "")
 
     def test_counts_as_it_needs_whatever_the_user_has_set(self):
         self.assertIn("3 of 7", self.build("echo \"$NINJA_STATUS\" | sed 's/%f/1/; s/%t/7/; s/$/Building a/'; "

@@ -90,10 +90,15 @@ locked() (
 
 # run_ninja FOLDER LOG [TARGET...]: builds, and says how far it is once there is something to build, not before: on a
 # terminal in one line that is rewritten, in a log each minute (or each $building_each seconds). What it builds is
-# $building, else the folder.
+# $building, else the folder. If $must_build is set, there is something to build for sure, and it says so at once:
+# ninja names a file only when it is done, which may take minutes.
 run_ninja() {
   local folder=$1 log=$2 what=${building:-${1#"$root"/}} said= line
   shift 2
+  if [ -n "${must_build:-}" ]; then
+    if [ -t 2 ]; then printf '\r\033[Ktushar: building %s' "$what" >&2; else say "building $what"; fi
+    said=$SECONDS
+  fi
   NINJA_STATUS='[%f/%t] ' ninja -C "$folder" "$@" 2>&1 9>&- | {
     while IFS= read -r line; do
       printf '%s\n' "$line" >>"$log"
