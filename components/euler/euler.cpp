@@ -19,7 +19,7 @@ void Euler<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void Euler<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("euler::computeStableTimeStep", computeStableTimeStep<D>, with(settings_.gas), with(settings_.cfl),
+  tasks.perPatch("euler::computeStableTimeStep", computeStableTimeStep<D>, with(settings_.gas), with(settings_.courant),
                  requiresOld(c::density), requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(delT));
 }
 

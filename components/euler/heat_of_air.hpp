@@ -74,8 +74,8 @@ inline constexpr Inverse inverse{};
 
 /// The specific heat of air (1 mol of O2 with 3.76 mol of N2), divided by its gas constant: polynomials for O2 and N2,
 /// weighted by mole fractions. Valid from 200 to 3500 K; below and above, c_v keeps its value at the nearer limit.
-/// Energies are measured from 0 K. Source of the coefficients: B. J. McBride, S. Gordon & M. A. Reno, NASA TM 4513
-/// (1993), as in G. P. Smith & al., GRI-Mech 3.0 (1999).
+/// Energies are measured from 0 K. Source of the coefficients:
+/// B. J. McBride, S. Gordon & M. A. Reno, NASA TM 4513 (1993), as in G. P. Smith & al., GRI-Mech 3.0 (1999).
 struct HeatOfAir {
   /// c_v / R.
   static double specificHeat(double temperature) {

@@ -124,7 +124,7 @@ simulation::ComponentKind kind() {
     Settings settings;
     settings.where = root.child("Euler")->where();
     settings.method = {read.flux, read.reconstruction, read.limiter};
-    settings.cfl = read.cfl;
+    settings.courant.number = read.cfl;
     settings.gas = {read.gas.gamma, read.gas.pInfinity};
     settings.objects = read.objects;
     return [settings](const Level& level) { return simulation::makeByDimension<Euler>(level, settings); };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "components/euler/courant.hpp"
 #include "components/euler/gas.hpp"
 #include "core/base/error.hpp"
 #include "core/input/expression.hpp"
@@ -45,7 +46,7 @@ struct Settings {
   Method method;
   /// Whether objects may contain no cell centre; true if they are parts into which an object of the scene was divided.
   bool objectsMayBeEmpty = false;
-  double cfl = 0.8;  ///< Courant number: dt max(sum_d (|v_d| + c) / h_d)
+  Courant courant = {};
   Gas gas;
   /// The laws of all gases that share cells with this one, if one of them has its own law; otherwise null.
   std::shared_ptr<const BlendLaws> blend = nullptr;

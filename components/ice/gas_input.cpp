@@ -98,13 +98,13 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
 /// Adds notes on sections that concern implicit steps but have no effect here.
-void noteIdle(const Element& root, const IceSection& ice, bool isImplicit, Diagnostics& diagnostics) {
+void noteIdle(const Element& root, bool isImplicit, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
     diagnostics.note(*solver, isImplicit ? "does nothing: the settings of the solve are in <ImplicitSolver>"
                                          : "does nothing: explicit steps solve no system of equations");
-  if (ice.steps && !isImplicit)
-    diagnostics.note(*root.child("CFD")->child("ICE")->child("TimeStepControl"),
-                     "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
+  const auto steps = root.child("CFD")->child("ICE")->child("TimeStepControl");
+  if (const auto knob = steps ? steps->child("knob_for_speedSound") : std::nullopt; knob && !isImplicit)
+    diagnostics.note(*knob, "does nothing: the whole speed of sound limits explicit steps");
 }
 
 /// The smallest tolerance allowed: Uintah's scenes require residuals down to 1e-22, which rounding errors make
@@ -216,14 +216,16 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.gas.where = scene.where;
   scene.gas.section = "MaterialProperties/ICE/material";
   scene.gas.method.reconstruction = cfd.ice.advection.reconstruction;
-  scene.gas.cfl = cfd.cfl;
+  scene.gas.courant.number = cfd.cfl;
   scene.gas.gas.material = solids;
   scene.thinWalls = cfd.ice.thinWalls;
   takeModels(models, root, solids, scene, diagnostics);
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
   takeImplicitSteps(cfd.ice, materials, root, solids, scene, diagnostics);
-  noteIdle(root, cfd.ice, scene.implicit.has_value(), diagnostics);
+  if (!cfd.ice.steps.value_or(StepSection()).limitsSum)
+    scene.gas.courant.sum = solids > 0 || scene.implicit ? greatestSumWithBodies : greatestSum;
+  noteIdle(root, scene.implicit.has_value(), diagnostics);
   if (cfd.ice.push) scene.push = Vec3(cfd.ice.push->x, cfd.ice.push->y, cfd.ice.push->z);
   if (cfd.ice.heating) scene.heating = heatingOf(*cfd.ice.heating, solids, materials.size(), diagnostics);
   if (cfd.ice.eddies) scene.varying.smagorinsky = cfd.ice.eddies->constant;

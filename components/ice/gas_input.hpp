@@ -77,6 +77,10 @@ std::vector<Reaction> reactionsOf(const GasScene& scene);
 inline constexpr const char* pressureOnOneLevel =
     "an <ImplicitSolver> solves for the pressure on one level; CFD/ICE/explicit=true switches it off";
 
+/// The largest Courant number of the sum over axes, if cfl limits the rate along each axis; the other one applies
+/// beside bodies and in implicit steps.
+inline constexpr double greatestSum = 0.8, greatestSumWithBodies = 0.5;
+
 /// Advice if a run fails.
 inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder";
 

@@ -27,14 +27,17 @@ const Schema<AdvectionSection>& advectionSchema() {
 
 const Schema<StepSection>& stepSchema() {
   static const Schema<StepSection> schema =
-      Schema<StepSection>("TimeStepControl", "What limits the steps of an <ImplicitSolver>.")
-          .value("knob_for_speedSound", &StepSection::soundSpeedKnob, StepSection().soundSpeedKnob, "1",
-                 "fraction of the speed of sound that limits the steps, in addition to the velocity and the "
-                 "acceleration of the gas",
-                 input::between(0, 1))
+      Schema<StepSection>("TimeStepControl", "What limits the steps.")
+          .value(
+              "knob_for_speedSound", &StepSection::soundSpeedKnob, StepSection().soundSpeedKnob, "1",
+              "with an <ImplicitSolver>, the fraction of the speed of sound that limits the steps, in addition to the "
+              "velocity and the acceleration of the gas",
+              input::between(0, 1))
           .ignored("knob_for_diffusion", "viscosity and conduction are explicit, and always limit the steps")
-          .ignored("Scheme_for_delT_calc",
-                   "there is only one scheme: dt is cfl divided by the rate at which cells are crossed");
+          .choice(
+              "Scheme_for_delT_calc", &StepSection::limitsSum, {{"aggressive", false}, {"conservative", true}}, false,
+              "aggressive: <cfl> limits dt (|v| + c) / h along each axis, and the sum over axes is at most .8, or .5 "
+              "with bodies or an <ImplicitSolver>; conservative: <cfl> limits the sum");
   return schema;
 }
 
@@ -302,7 +305,8 @@ const Schema<ExchangeSection>& exchangeSchema() {
 const Schema<CfdSection>& cfdSchema() {
   static const Schema<CfdSection> schema =
       Schema<CfdSection>("CFD", "The flow of the gas.")
-          .required("cfl", &CfdSection::cfl, "1", "dt times the largest sum over axes of (|v| + c) / h",
+          .required("cfl", &CfdSection::cfl, "1",
+                    "dt times the largest (|v| + c) / h along an axis (TimeStepControl/Scheme_for_delT_calc)",
                     input::positive(), input::atMost(1))
           .requiredSection("ICE", &CfdSection::ice, iceSchema());
   return schema;

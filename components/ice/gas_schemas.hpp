@@ -21,6 +21,7 @@ struct AdvectionSection {
 /// The tag `CFD/ICE/TimeStepControl`.
 struct StepSection {
   double soundSpeedKnob = 0.5;
+  bool limitsSum = false;  ///< whether cfl limits the sum of rates over axes, instead of the rate along each axis
 };
 
 /// The tag `CFD/ICE/ImplicitSolver/Parameters`, with hypre's names.

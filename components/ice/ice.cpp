@@ -37,7 +37,7 @@ template <int D>
 void Ice<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (!varying_.varies()) return;
   tasks.perPatch("euler::limitDiffusion", euler::limitVaryingDiffusion<D>, with(this->settings().gas), with(varying_),
-                 with(this->settings().cfl), with(soundSpeedKnob), all<euler::OldState<D>>(1), startTime(),
+                 with(this->settings().courant.number), with(soundSpeedKnob), all<euler::OldState<D>>(1), startTime(),
                  computes(delT));
 }
 
@@ -67,7 +67,7 @@ void Ice<D>::scheduleStepsOfScalars(TaskList& tasks) const {
   for (const auto& one : scalars_)
     if (one->settings().diffusivity > 0)
       tasks.perPatch("ice::limitScalarDiffusion", limitScalarDiffusion<D>, with(one->settings().diffusivity),
-                     with(this->settings().cfl), requiresOld(euler::c::density), computes(delT));
+                     with(this->settings().courant.number), requiresOld(euler::c::density), computes(delT));
 }
 
 template <int D>
@@ -77,7 +77,7 @@ void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   scheduleStepsOfDiffusion(tasks, 1);
   if (acting_.diffusion.acts())
     tasks.perPatch("euler::limitDiffusion", euler::limitDiffusion<D>, with(this->settings().gas),
-                   with(acting_.diffusion), with(this->settings().cfl), requiresOld(euler::c::density),
+                   with(acting_.diffusion), with(this->settings().courant.number), requiresOld(euler::c::density),
                    requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy), computes(delT));
 }
 

@@ -223,10 +223,10 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
   const auto mpm = root.child("MPM");
   if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
     diagnostics.error(*radial, "is not available with a gas, whose grid is Cartesian");
-  if (scene.gas.cfl > greatestCfl)
+  if (scene.gas.courant.number > greatestCfl)
     diagnostics.error(*root.child("CFD")->child("cfl"),
                       fmt::format("found {:g}, expected at most {:g} with bodies, since they may half fill a cell",
-                                  scene.gas.cfl, greatestCfl));
+                                  scene.gas.courant.number, greatestCfl));
 }
 
 /// Notes that conditions on a part of a side apply only to the gas, and that those of the whole side apply to bodies.

@@ -249,10 +249,10 @@ void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& material
 template <int D>
 void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const {
   if (settings_.areRigid)
-    tasks.perMaterial("mpmice::limitStepOfRigidBodies", limitStepOfRigidBodies<D>, materials, with(settings_.gas.cfl),
-                      requiresOld(p::velocity<D>), computes(delT));
+    tasks.perMaterial("mpmice::limitStepOfRigidBodies", limitStepOfRigidBodies<D>, materials,
+                      with(settings_.gas.courant.number), requiresOld(p::velocity<D>), computes(delT));
   else
-    tasks.perPatch("mpmice::limitStepOfBodies", limitStepOfBodies, with(settings_.gas.cfl),
+    tasks.perPatch("mpmice::limitStepOfBodies", limitStepOfBodies, with(settings_.gas.courant.number),
                    requiresOld(mpm::solid::total::stableTimeStep), computes(delT));
   if (settings_.implicit) {
     const auto gas = gasIn(readsOld, {.state = 1, .mass = 2, .room = 2});

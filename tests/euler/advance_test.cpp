@@ -44,6 +44,22 @@ TYPED_TEST(AdvanceInEachDimension, KeepsMassAndEnergyOfAClosedBox) {
   }
 }
 
+TYPED_TEST(AdvanceInEachDimension, LimitsTheSumOfRatesOrTheRateAlongEachAxis) {
+  constexpr int D = TypeParam::value;
+  State<D> w{};
+  w[kDensity] = 1.4;
+  w[kPressure<D>] = 4;  // so that c = 2
+  for (int d = 0; d < D; ++d) w[kVelocity(d)] = d == 0 ? -3 : 1;
+  GasBox<D> box(closedBox(D, cellsAlong<D>), [&](const Vec<D>&) { return w; });
+  const double perWidth = box.level.inverseSpacing(0), axis = 5 * perWidth, sum = (5 + 3 * (D - 1)) * perWidth;
+  EXPECT_NEAR(box.stableStep(0.3), 0.3 / sum, 1e-15);
+  EXPECT_NEAR(box.stableStep(Courant{0.3, 0.8}), std::min(0.3 / axis, 0.8 / sum), 1e-15);
+  EXPECT_NEAR(box.stableStep(Courant{0.7, 0.8}), D == 1 ? 0.7 / axis : 0.8 / sum, 1e-15) << "the sum must be stable";
+  if (D == 1) {
+    EXPECT_EQ(box.stableStep(Courant{0.3, 0.8}), box.stableStep(0.3));
+  }
+}
+
 TYPED_TEST(AdvanceInEachDimension, KeepsAContactAtRestExactly) {
   constexpr int D = TypeParam::value;
   const auto contact = [](const Vec<D>& x) {

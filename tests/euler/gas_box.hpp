@@ -45,10 +45,11 @@ class GasBox {
     });
   }
 
-  double stableStep(double cfl) {
+  double stableStep(double cfl) { return stableStep(Courant{cfl}); }
+  double stableStep(const Courant& courant) {
     Minimum dt;
     for (const Patch& patch : grid.patches())
-      computeStableTimeStep<D>(patch, gas, cfl, seen<const double>(density, patch, 0),
+      computeStableTimeStep<D>(patch, gas, courant, seen<const double>(density, patch, 0),
                                seen<const Vec<D>>(momentum, patch, 0), seen<const double>(energy, patch, 0), dt);
     return dt.value;
   }

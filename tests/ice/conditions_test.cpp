@@ -91,9 +91,7 @@ std::string pulseOfTwo(const std::string& gamma, const std::string& specificHeat
   change(other, "<gamma>1.4<", "<gamma>" + gamma + "<");
   change(other, "<specific_heat>2.5<", "<specific_heat>" + specificHeat + "<");
   const std::string scene = changedScene(pulse, whole.substr(at, to - at), first + other);
-  return tags.empty() ? scene
-                      : changedScene(scene, "<ICE><advection type=\"SecondOrder\"/></ICE>",
-                                     "<ICE><advection type=\"SecondOrder\"/>" + tags + "</ICE>");
+  return tags.empty() ? scene : changedScene(scene, "<TimeStepControl>", tags);
 }
 
 }  // namespace
@@ -104,8 +102,7 @@ TEST(IceConditions, WavesLeaveInSeveralGases) {
   EXPECT_EQ(fingerprintOf(twice, {"Grid/Level/Box/patches=[4,2,1]"}), fingerprintOf(twice));
   EXPECT_LT(errorOf(pulseOfTwo("1.6", "1.6666666666666667")), 2e-4);  // it starts with differences of density
   EXPECT_LT(errorOf(pulseOfTwo("1.4", "2.5",
-                               "<TimeStepControl><knob_for_speedSound>1</knob_for_speedSound></TimeStepControl>"
-                               "<ImplicitSolver/>")),
+                               "<ImplicitSolver/><TimeStepControl><knob_for_speedSound>1</knob_for_speedSound>")),
             1e-4);
 }
 
@@ -128,26 +125,25 @@ TEST(IceConditions, DoNotContradictOneAnother) {
 }
 
 TEST(IceConditions, WavesLeaveInImplicitSteps) {
-  const std::string implicit = changedScene(pulse, "<ICE><advection type=\"SecondOrder\"/></ICE>",
-                                            "<ICE><advection type=\"SecondOrder\"/><TimeStepControl>"
-                                            "<knob_for_speedSound>1</knob_for_speedSound></TimeStepControl>"
-                                            "<ImplicitSolver/></ICE>");
+  const std::string implicit = changedScene(pulse, "<TimeStepControl>",
+                                            "<ImplicitSolver/><TimeStepControl>"
+                                            "<knob_for_speedSound>1</knob_for_speedSound>");
   EXPECT_LT(errorOf(implicit), 1e-4);
 }
 
 TEST(IceForces, AGradientOfPressureDrivesAChannelAsGravityDoes) {
-  const std::string driven = changedScene(channel, "<ICE><advection type=\"SecondOrder\"/></ICE>",
-                                          "<ICE><advection type=\"SecondOrder\"/><fixedPressureGradient><x_dir>0.04"
-                                          "</x_dir></fixedPressureGradient></ICE>");
+  const std::string driven =
+      changedScene(channel, "<TimeStepControl>",
+                   "<fixedPressureGradient><x_dir>0.04</x_dir></fixedPressureGradient><TimeStepControl>");
   const Overrides coarse{"Grid/Level/Box/resolution=[8,8,1]", "PhysicalConstants/gravity=[0,0,0]"};
   EXPECT_NEAR(errorOf(driven, coarse), 0.05 / 64, 2e-5);
 }
 
 TEST(IceViscosity, OfEddiesDampsAWave) {
   const auto with = [](const std::string& constant) {
-    return changedScene(shear, "<ICE><advection type=\"SecondOrder\"/></ICE>",
-                        "<ICE><advection type=\"SecondOrder\"/><turbulence model=\"Smagorinsky\"><model_constant>" +
-                            constant + "</model_constant></turbulence></ICE>");
+    return changedScene(shear, "<TimeStepControl>",
+                        "<turbulence model=\"Smagorinsky\"><model_constant>" + constant +
+                            "</model_constant></turbulence><TimeStepControl>");
   };
   EXPECT_EQ(fingerprintOf(with("0")), fingerprintOf(shear));
   const Overrides shortened{"Time/max_Timesteps=20"};

@@ -54,13 +54,40 @@ TEST(GasScene, TakesNoConstantOfTheGas) {
   EXPECT_EQ(gas.specificHeat, 716);
 }
 
+TEST(GasScene, LimitsTheRateAlongEachAxisUnlessItIsConservative) {
+  const auto read = [](const std::string& control, int solids) {
+    std::string given = scene;
+    const auto drop = [&](const std::string& from, const std::string& to) {
+      const std::size_t at = given.find(from);
+      given.erase(at, given.find(to, at) + to.size() - at);
+    };
+    if (solids == 0)
+      drop("<MPM>", "</MPM>"), drop("<exchange_properties>", "</exchange_properties>"), drop("<Face", "</Face>");
+    given.replace(given.find("<ICE>"), 5, "<ICE>" + control);
+    input::Diagnostics diagnostics;
+    const input::Document document = input::Document::parse(given, "gas.ups", diagnostics);
+    const GasScene gas = readGas(document.root(), solids, diagnostics);
+    EXPECT_FALSE(diagnostics.any()) << diagnostics.sorted()[0].sentence;
+    return gas.gas.courant;
+  };
+  const auto control = [](const std::string& scheme) {
+    return "<TimeStepControl><Scheme_for_delT_calc>" + scheme + "</Scheme_for_delT_calc></TimeStepControl>";
+  };
+  for (const std::string& words : {std::string(), control("aggressive")}) {
+    EXPECT_EQ(read(words, 0).sum, 0.8);
+    EXPECT_EQ(read(words, 1).sum, 0.5) << "bodies may half fill a cell";
+    EXPECT_EQ(read(words, 1).number, 0.25);
+  }
+  EXPECT_FALSE(read(control("conservative"), 1).sum);
+}
+
 TEST(GasScene, HasWhatTheSceneSays) {
   input::Diagnostics diagnostics;
   const input::Document document = input::Document::parse(scene, "gas.ups", diagnostics);
   const GasScene gas = readGas(document.root(), 1, diagnostics);
   ASSERT_FALSE(diagnostics.any()) << diagnostics.sorted()[0].sentence;
   EXPECT_TRUE(diagnostics.notes().empty());
-  EXPECT_EQ(gas.gas.cfl, 0.25);
+  EXPECT_EQ(gas.gas.courant.number, 0.25);
   EXPECT_EQ(gas.gas.method.reconstruction, euler::Reconstruction::firstOrder);
   EXPECT_EQ(gas.gas.gas.gamma, 1.4);
   EXPECT_EQ(gas.gas.gas.material, 1);

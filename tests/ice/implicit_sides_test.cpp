@@ -36,7 +36,7 @@ grid::Domain lineWith(const Conditions& lower, const Conditions& upper) {
 class Line {
  public:
   Line(const Conditions& lower, const Conditions& upper, double rise = 0) : grid_(lineWith(lower, upper)) {
-    method_.cfl = 0.5;
+    method_.courant.number = 0.5;
     settings_.gravity = Vec3(rise, 0, 0);
     for (int i = 0; i < 4; ++i) {
       pressure_[i] = 3 + rise * level().cellCentre<1>(Index<1>{{i}})[0];

@@ -111,10 +111,14 @@ TYPED_TEST(FlatAlongAxes, StepsFollowFromTheFastestCellWithGas) {
     for (int d = 0; d < D; ++d) fields.momentum.values[i][d] = fields.density.values[i] * (wild(seed + d) - 0.5);
   }
   Settings settings;
-  settings.gas.cfl = 0.3;
-  Minimum dt;
-  computeStableTimeStep<D>(grid.patches().front(), settings, fields.gas(), dt);
-  EXPECT_EQ(dt.value, 0.3 / fastestRate<D>(grid.patches().front(), settings.gas.gas, fields.gas()));
+  const Patch& patch = grid.patches().front();
+  for (const euler::Courant& courant : {euler::Courant{0.3}, euler::Courant{0.3, 0.5}, euler::Courant{0.1, 0.5}}) {
+    settings.gas.courant = courant;
+    Minimum dt;
+    computeStableTimeStep<D>(patch, settings, fields.gas(), dt);
+    const euler::CrossingRate<D> crossing(courant);
+    EXPECT_EQ(dt.value, courant.number / fastestRate<D>(patch, settings.gas.gas, crossing, fields.gas()));
+  }
 }
 
 }  // namespace tushar::mpmice

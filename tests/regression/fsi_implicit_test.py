@@ -14,10 +14,12 @@ from uda import Folder
 
 def implicit(text):
     """Returns a scene whose time steps are not limited by sound."""
-    order = '<advection type="SecondOrder"/>'
-    knob = "<TimeStepControl><knob_for_speedSound>0</knob_for_speedSound></TimeStepControl>"
+    knob = "<knob_for_speedSound>0</knob_for_speedSound>"
     solver = "<ImplicitSolver><Solver><preconditioner>jacobi</preconditioner></Solver></ImplicitSolver>"
-    return changed(text, (order, order + knob + solver))
+    if fsi.SUM in text:
+        return changed(text, (fsi.SUM, solver + fsi.SUM.replace("<Scheme", knob + "<Scheme")))
+    order = '<advection type="SecondOrder"/>'
+    return changed(text, (order, f"{order}<TimeStepControl>{knob}</TimeStepControl>{solver}"))
 
 
 class Conservation(ConservationTest):

@@ -95,7 +95,7 @@ class Parting(SceneTest):
         self.assert_filled(with_two_gases(BLOCKS), "TotalMass-gas", "TotalMass-other")
 
     def test_of_rigid_blocks_with_thin_walls_ends_where_a_wall_closes_a_cell(self):
-        text = changed(RIGID_BLOCKS, ("<ICE><adv", "<ICE><thin_walls>true</thin_walls><adv"))
+        text = changed(RIGID_BLOCKS, ("<adv", "<thin_walls>true</thin_walls><adv"))
         done = run(self.scene(text), *fsi.resolution("carried_disc", 32), "Time/maxTime=0.05")
         self.assertEqual(done.code, 0, done.err)
         self.assertLess(done.report["retries"], 5)

@@ -15,6 +15,8 @@ PRESSURE, DENSITY, FREE = "c.pressure [Pa]", "c.density [kg/m^3]", "c.freeVolume
 # Width and height of scenes in a plane, m.
 PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1),
          "burning_grain": (1, 1), "carried_disc": (1, 1), "ring": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
+# In scenes of more than one dimension, cfl limits the sum of rates over axes.
+SUM = "<TimeStepControl><Scheme_for_delT_calc>conservative</Scheme_for_delT_calc></TimeStepControl>"
 
 
 def scene(name):

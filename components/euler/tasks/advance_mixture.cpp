@@ -128,9 +128,10 @@ void mendNewMixture(const Patch&, const std::vector<Settings>& gases, const std:
 }
 
 template <int D>
-void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, double cfl, const OldState<D>& old,
-                      const std::vector<OldGas>& held, Minimum& dt) {
+void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, const Courant& courant,
+                      const OldState<D>& old, const std::vector<OldGas>& held, Minimum& dt) {
   if (!gases.front().blend) refuseBrokenMixture<D, OldGas, const double>(patch, gases, held, old);
+  const CrossingRate<D> crossing(courant);
   double greatest = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double energy = internalEnergyIn<D, const double>(old, cell);
@@ -138,27 +139,31 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, do
     const double rho = old.density[cell], p = mixed.pressure(rho, energy);
     if (gases.front().blend && !(mixed.softness > 0)) refuseBlend<D>(patch.level(), cell, massesIn(held, cell), energy);
     const double c = std::sqrt(mixed.soundSpeedSquared(rho, p));
-    double rate = 0;
-    for (int d = 0; d < D; ++d) rate += (std::abs(old.momentum[cell][d]) / rho + c) * patch.level().inverseSpacing(d);
-    greatest = std::max(greatest, rate);
+    double sum = 0, most = 0;
+    for (int d = 0; d < D; ++d) {
+      const double one = (std::abs(old.momentum[cell][d]) / rho + c) * patch.level().inverseSpacing(d);
+      sum += one;
+      most = std::max(most, one);
+    }
+    greatest = std::max(greatest, crossing(sum, most));
   });
-  if (greatest > 0) dt.add(cfl / greatest, "CFL");
+  if (greatest > 0) dt.add(courant.number / greatest, "CFL");
 }
 
-#define TUSHAR_MIXTURE(D)                                                                                         \
-  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<OldGas>&,       \
-                                    const StateViews<D, const double>&);                                          \
-  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<NewGas>&,       \
-                                    const StateViews<D, double>&);                                                \
-  template AdvanceMixture<D> chooseAdvanceMixture<D>(const Method&, std::size_t);                                 \
-  template void closeShares<D>(const Patch&, const std::vector<Settings>&, const std::vector<CellView<double>>&); \
-  template void mendNewMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,            \
-                                  const ChangedState<D>&, const std::vector<ChangedGas>&);                        \
-  template void closeBlend<D>(const Patch&, const std::vector<Settings>&, CellView<const double>,                 \
-                              CellView<const Vec<D>>, CellView<const double>,                                     \
-                              const std::vector<CellView<const double>>&, const std::vector<CellView<double>>&);  \
-  template void refuseBlend<D>(const Level&, const Index<D>&, const std::array<double, kMostGases>&, double);     \
-  template void limitMixtureStep<D>(const Patch&, const std::vector<Settings>&, double, const OldState<D>&,       \
+#define TUSHAR_MIXTURE(D)                                                                                           \
+  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<OldGas>&,         \
+                                    const StateViews<D, const double>&);                                            \
+  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<NewGas>&,         \
+                                    const StateViews<D, double>&);                                                  \
+  template AdvanceMixture<D> chooseAdvanceMixture<D>(const Method&, std::size_t);                                   \
+  template void closeShares<D>(const Patch&, const std::vector<Settings>&, const std::vector<CellView<double>>&);   \
+  template void mendNewMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,              \
+                                  const ChangedState<D>&, const std::vector<ChangedGas>&);                          \
+  template void closeBlend<D>(const Patch&, const std::vector<Settings>&, CellView<const double>,                   \
+                              CellView<const Vec<D>>, CellView<const double>,                                       \
+                              const std::vector<CellView<const double>>&, const std::vector<CellView<double>>&);    \
+  template void refuseBlend<D>(const Level&, const Index<D>&, const std::array<double, kMostGases>&, double);       \
+  template void limitMixtureStep<D>(const Patch&, const std::vector<Settings>&, const Courant&, const OldState<D>&, \
                                     const std::vector<OldGas>&, Minimum&);
 TUSHAR_MIXTURE(1)
 TUSHAR_MIXTURE(2)

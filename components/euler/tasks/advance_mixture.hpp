@@ -141,10 +141,10 @@ template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);
 
-/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d), with rho c² = (p (1 + G) + S) / G.
+/// Computes dt like computeStableTimeStep, with rho c² = (p (1 + G) + S) / G.
 /// Throws NumericalError where a state is impossible.
 template <int D>
-void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, double cfl, const OldState<D>& old,
-                      const std::vector<OldGas>& held, Minimum& dt);
+void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, const Courant& courant,
+                      const OldState<D>& old, const std::vector<OldGas>& held, Minimum& dt);
 
 }  // namespace tushar::euler

@@ -23,7 +23,7 @@ void ImplicitMixtureIce<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void ImplicitMixtureIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.acrossMaterials("ice::limitImplicitStep", limitImplicitMixture<D>, this->held(), with(this->cfl()),
+  tasks.acrossMaterials("ice::limitImplicitStep", limitImplicitMixture<D>, this->held(), with(this->courant()),
                         with(acting_), withoutMaterial(all<euler::OldState<D>>(2)), all<euler::OldGas>(2), startTime(),
                         withoutMaterial(requiresOld(c::pressureAtEnd, 2)), computes(delT));
   this->scheduleStepsOfDiffusion(tasks, acting_.soundSpeedKnob);

@@ -117,9 +117,10 @@ void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceS
 
 /// Limits the time step of several gases, like limitImplicitStep; a separate task limits it by diffusion.
 template <int D>
-void limitImplicitMixture(const Patch& patch, const Gases& gases, double cfl, const IceSettings& settings,
-                          const euler::OldState<D>& before, const std::vector<euler::OldGas>& held, double time,
-                          CellView<const double> pressure, Minimum& dt) {
+void limitImplicitMixture(const Patch& patch, const Gases& gases, const euler::Courant& courant,
+                          const IceSettings& settings, const euler::OldState<D>& before,
+                          const std::vector<euler::OldGas>& held, double time, CellView<const double> pressure,
+                          Minimum& dt) {
   const Level& level = patch.level();
   euler::refuseBrokenMixture<D, euler::OldGas, const double>(patch, gases, held, before);
   const euler::GhostRules<D> rules = euler::ghostRulesOf<D>(level, gases.front().gas, gases, time);
@@ -130,9 +131,10 @@ void limitImplicitMixture(const Patch& patch, const Gases& gases, double cfl, co
     gas.hold(cells, euler::viewsOf<const double, D>(before, held));
     euler::Rows<D, K> pushing = gas.old();
     gas.fillWithPressure(pressure, pushing);
-    greatest = greatestImplicitRate<D, K>(patch, gas, pushing, settings.soundSpeedKnob, [](double) { return 0.0; });
+    greatest =
+        greatestImplicitRate<D, K>(patch, gas, pushing, settings.soundSpeedKnob, courant, [](double) { return 0.0; });
   });
-  if (greatest > 0) dt.add(cfl / greatest, "CFL");
+  if (greatest > 0) dt.add(courant.number / greatest, "CFL");
 }
 
 }  // namespace tushar::ice

@@ -35,7 +35,7 @@ std::vector<BurningGas> burningOf(const GasScene& scene) {
 template <int D>
 MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
     : method_(scene.gas.method),
-      cfl_(scene.gas.cfl),
+      courant_(scene.gas.courant),
       gravity_(scene.gravity),
       push_(scene.push),
       gases_(scene.mixture),
@@ -59,7 +59,7 @@ void MixtureIce<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void MixtureIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.acrossMaterials("ice::limitMixtureStep", euler::limitMixtureStep<D>, gases_, with(cfl_),
+  tasks.acrossMaterials("ice::limitMixtureStep", euler::limitMixtureStep<D>, gases_, with(courant_),
                         withoutMaterial(all<euler::OldState<D>>(0)), all<euler::OldGas>(0), computes(delT));
   scheduleStepsOfDiffusion(tasks, 1);
 }
@@ -67,9 +67,9 @@ void MixtureIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 template <int D>
 void MixtureIce<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (diffusion_.acts())
-    tasks.acrossMaterials("ice::limitMixtureDiffusion", limitMixtureDiffusion<D>, gases_, with(diffusion_), with(cfl_),
-                          with(soundSpeedKnob), withoutMaterial(all<euler::OldState<D>>(1)), all<euler::OldGas>(1),
-                          startTime(), computes(delT));
+    tasks.acrossMaterials("ice::limitMixtureDiffusion", limitMixtureDiffusion<D>, gases_, with(diffusion_),
+                          with(courant_.number), with(soundSpeedKnob), withoutMaterial(all<euler::OldState<D>>(1)),
+                          all<euler::OldGas>(1), startTime(), computes(delT));
 }
 
 template <int D>

@@ -34,7 +34,7 @@ class MixtureIce : public Component, public reference::GasSolution {
   std::vector<reference::MeasuredPlace> measuredPlaces() const override { return {reference::MeasuredPlace::cell}; }
 
  protected:
-  double cfl() const { return cfl_; }
+  const euler::Courant& courant() const { return courant_; }
   const Gases& held() const { return gases_; }
   /// Adds the tasks that change the gases after their flow: conversion into another gas, viscosity, conduction, forces,
   /// heat.
@@ -50,7 +50,7 @@ class MixtureIce : public Component, public reference::GasSolution {
   void scheduleClosing(TaskList& tasks) const;
 
   euler::Method method_;
-  double cfl_;
+  euler::Courant courant_;
   Vec3 gravity_, push_;
   Gases gases_;
   MixtureDiffusion diffusion_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/ice/face_flow.hpp"
+#include "components/ice/pushed_gas.hpp"
 
 namespace tushar::ice {
 
@@ -13,16 +14,17 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { pressure[cell] = euler::pressureIn(gas, state, cell); });
 }
 
-/// Returns the largest s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2 of the patch [1/s], where r = sum_d (|v_d| + k c) /
-/// h_d + 2 nu / h_d². s is the rate at which gas crosses a cell. It includes the acceleration a_d = |g_d - (dp/dx_d) /
-/// rho|, so that gas initially at rest does not cross a cell within the step. |v_d| is the maximum of the cell's
+/// Returns the greatest rate of PushedGas of the patch [1/s], with the flow (|v_d| + k c) / h_d, the diffusion 2 nu /
+/// h_d² and the push a_d / h_d. It includes the acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas initially at
+/// rest does not cross a cell within the step. |v_d| is the maximum of the cell's
 /// velocity and of the velocities prescribed at its faces. The pressure in a_d is `pushing`, the pressure at the end of
 /// the previous step. It is not the pressure of the gas itself, which also contains the effect of conduction; sound
 /// equalises that effect before it moves the gas. k is Uintah's `knob_for_speedSound`; `diffusivity(rho)` is nu [m²/s].
 /// Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
 template <int D, int K, class Diffusivity>
 double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing,
-                            double soundSpeedKnob, Diffusivity&& diffusivity) {
+                            double soundSpeedKnob, const euler::Courant& courant, Diffusivity&& diffusivity) {
+  const euler::CrossingRate<D> crossing(courant);
   const Level& level = patch.level();
   const double second = 1;
   const auto acceleration = [&](const Index<D>& face, int axis) {
@@ -41,19 +43,19 @@ double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, cons
   double greatest = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double sound = soundSpeedKnob * gas.soundSpeed(cell), nu = diffusivity(gas.old().number(cell, 0));
-    double rate = 0, rates = 0;
+    PushedGas<D> crossed;
     for (int d = 0; d < D; ++d) {
       const double perWidth = level.inverseSpacing(d);
-      rate += (speed(cell, d) + sound) * perWidth;
-      rate += 2 * nu * perWidth * perWidth;
-      rates += perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
+      crossed.flow[d] = (speed(cell, d) + sound) * perWidth;
+      crossed.diffusion[d] = 2 * nu * perWidth * perWidth;
+      crossed.push[d] = perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
     }
-    greatest = std::max(greatest, 0.5 * (rate + std::sqrt(rate * rate + 4 * rates)));
+    greatest = std::max(greatest, crossed.rate(crossing));
   });
   return greatest;
 }
 
-/// Computes dt = cfl / s, where s is the rate of greatestImplicitRate, with the largest diffusivity as nu. Throws
+/// Computes dt = cfl / s, where s is the greatestImplicitRate, with the largest diffusivity as nu. Throws
 /// NumericalError where a density, or p + p_inf, is not positive.
 template <int D>
 void limitImplicitStep(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
@@ -66,10 +68,11 @@ void limitImplicitStep(const Patch& patch, const euler::Settings& method, const 
   gas.hold(cells, before);
   euler::Rows<D> pushing = gas.old();
   gas.fillWithPressure(pressure, pushing);
-  const double greatest = greatestImplicitRate<D, 1>(patch, gas, pushing, settings.soundSpeedKnob, [&](double density) {
-    return settings.diffusion.acts() ? settings.diffusion.greatest(method.gas, density) : 0.0;
-  });
-  if (greatest > 0) dt.add(method.cfl / greatest, "CFL");
+  const double greatest =
+      greatestImplicitRate<D, 1>(patch, gas, pushing, settings.soundSpeedKnob, method.courant, [&](double density) {
+        return settings.diffusion.acts() ? settings.diffusion.greatest(method.gas, density) : 0.0;
+      });
+  if (greatest > 0) dt.add(method.courant.number / greatest, "CFL");
 }
 
 }  // namespace tushar::ice

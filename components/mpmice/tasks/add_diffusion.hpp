@@ -235,7 +235,7 @@ void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCel
     for (int d = 0; d < D; ++d) rate += std::abs(momentum[d]) / rho * level.inverseSpacing(d);
     greatest = rate > greatest ? rate : greatest;
   });
-  if (greatest > 0) dt.add(settings.gas.cfl / greatest, "diffusion");
+  if (greatest > 0) dt.add(settings.gas.courant.number / greatest, "diffusion");
 }
 
 /// Computes dt = cfl / max(sum_d (|v_d| + k c) / h_d + (nu_below + nu_above) / (l h_d)²) for varying viscosity and
@@ -258,7 +258,7 @@ void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const G
       greatest = std::max(greatest, rate.byFlow + rate.byDiffusion / (layer * layer));
     });
   });
-  if (greatest > 0) dt.add(settings.gas.cfl / greatest, "diffusion");
+  if (greatest > 0) dt.add(settings.gas.courant.number / greatest, "diffusion");
 }
 
 }  // namespace tushar::mpmice

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/euler/tasks/add_gravity.hpp"
+#include "components/ice/pushed_gas.hpp"
 #include "components/ice/tasks/advance_implicitly.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
 #include "components/mpmice/tasks/solve_pressure.hpp"
@@ -75,8 +76,8 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
   ice::refuseCrossing(most, dt);
 }
 
-/// Computes dt = cfl / s as in `ice`, with s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2. The acceleration a_d follows
-/// from the pressure of the gas itself.
+/// Computes dt = cfl / s as in `ice`, with the greatest rate s of ice::PushedGas. The acceleration a_d follows from the
+/// pressure of the gas itself.
 template <int D>
 void limitImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                        double diffusivityAtStart, Minimum& dt) {
@@ -87,6 +88,7 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
   const FreeSpace<D> space(level, settings, cells);
   const Vec<D> gravity = level.reduce<D>(settings.gravity);
+  const euler::CrossingRate<D> crossing(settings.gas.courant);
   const std::size_t p = euler::kPressure<D>;
   const Box around = level.clipCells(patch.cells().grown(1, D));
   euler::Rows<D> gasAlone(around.size());
@@ -104,11 +106,11 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
     const double diffusivity =
         implicit.diffusion.acts() ? std::min(implicit.diffusion.greatest(gas, rho), bound.at(c)) : 0.0;
     const double layer = std::min(1.0, layerOf(cells.free[cell]));
-    double rate = 0, rates = 0;
+    ice::PushedGas<D> crossed;
     for (int d = 0; d < D; ++d) {
       const double perWidth = level.inverseSpacing(d);
-      rate += (std::abs(w[euler::kVelocity(d)]) + sound) * perWidth;
-      rate += 2 * diffusivity * (perWidth * perWidth) / (layer * layer);
+      crossed.flow[d] = (std::abs(w[euler::kVelocity(d)]) + sound) * perWidth;
+      crossed.diffusion[d] = 2 * diffusivity * (perWidth * perWidth) / (layer * layer);
       double most = 0;
       for (const int side : {0, 1}) {
         if (space.isAtSide(cell, d, side) || (near(cell) && !(space.aperture(cell, d, side) > 0))) continue;
@@ -117,11 +119,11 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
         const double rise = (side == 0 ? w[p] - other : other - w[p]) * perWidth;
         most = std::max(most, std::abs(gravity[d] - 2 * rise / (rho + gasAlone.number(next, euler::kDensity))));
       }
-      rates += perWidth * most;
+      crossed.push[d] = perWidth * most;
     }
-    greatest = std::max(greatest, 0.5 * (rate + std::sqrt(rate * rate + 4 * rates)));
+    greatest = std::max(greatest, crossed.rate(crossing));
   });
-  if (greatest > 0) dt.add(settings.gas.cfl / greatest, "CFL");
+  if (greatest > 0) dt.add(settings.gas.courant.number / greatest, "CFL");
 }
 
 }  // namespace tushar::mpmice

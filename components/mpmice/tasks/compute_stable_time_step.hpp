@@ -5,27 +5,30 @@
 
 namespace tushar::mpmice {
 
-/// Returns the largest sum_d (|v_d| + c) / h_d [1/s] of the gas on the patch.
+/// Returns the greatest CrossingRate [1/s] of the gas on the patch, from (|v_d| + c) / h_d along each axis.
 /// Throws NumericalError where its density, or p + p_inf, is not positive.
 template <int D>
-double fastestRate(const Patch& patch, const euler::Gas& gas, const GasInCells<D>& cells) {
+double fastestRate(const Patch& patch, const euler::Gas& gas, const euler::CrossingRate<D>& crossing,
+                   const GasInCells<D>& cells) {
   const Level& level = patch.level();
-  double widths = 0, most = 0;
-  for (int d = 0; d < D; ++d) widths += level.inverseSpacing(d);
+  double most = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (cells.isEmpty(cell)) return;
     const double free = 1 / cells.free[cell], rho = cells.held.density[cell] * free, inverse = 1 / rho;
     const Vec<D>& m = cells.held.momentum[cell];
-    double squared = 0, sum = 0;
+    double squared = 0, sum = 0, widths = 0, greatest = 0;
     for (int d = 0; d < D; ++d) {
       squared += (m[d] * free) * (m[d] * free);
       sum += std::abs(m[d] * free) * level.inverseSpacing(d);
+      widths += level.inverseSpacing(d);
     }
     const double last = gas.last(rho, cells.held.totalEnergy[cell] * free - 0.5 * squared * inverse);
     if (!(gas.heat(rho, last) > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, last);
     const double c2 = gas.law ? gas.soundSpeedSquared(rho, last) : gas.gamma * (last + gas.pInfinity) * inverse;
-    const double rate = sum * inverse + std::sqrt(c2) * widths;
-    most = rate > most ? rate : most;
+    const double sound = std::sqrt(c2);
+    for (int d = 0; d < D; ++d)
+      greatest = std::max(greatest, (std::abs(m[d] * free) * inverse + sound) * level.inverseSpacing(d));
+    most = std::max(most, crossing(sum * inverse + sound * widths, greatest));
   });
   return most;
 }
@@ -33,7 +36,7 @@ double fastestRate(const Patch& patch, const euler::Gas& gas, const GasInCells<D
 /// Like fastestRate, for a stiffened gas, in vector registers; none if a state is impossible.
 template <int D>
 std::optional<double> fastestRateInRows(const Patch& patch, const euler::StiffenedGas& gas,
-                                        const GasInCells<D>& cells) {
+                                        const euler::CrossingRate<D>& crossing, const GasInCells<D>& cells) {
   std::array<double, D> perWidth;
   double widths = 0;
   bool isPossible = true;
@@ -54,7 +57,13 @@ std::optional<double> fastestRateInRows(const Patch& patch, const euler::Stiffen
       const double stiff = gas.pressure(rho, energy[i] * share - 0.5 * squared * inverse) + gas.pInfinity;
       const double impossible = stiff > 0 ? 0.0 : hasGas;
       bad = impossible > 0 ? 1.0 : bad;
-      const double fastest = sum * inverse + std::sqrt(gas.gamma * stiff * inverse) * widths;
+      const double sound = std::sqrt(gas.gamma * stiff * inverse);
+      double greatest = 0;
+      for (int d = 0; d < D; ++d) {
+        const double one = (std::abs(m[i * D + d] * share) * inverse + sound) * perWidth[d];
+        greatest = one > greatest ? one : greatest;
+      }
+      const double fastest = crossing(sum * inverse + sound * widths, greatest);
       rate[i] = hasGas > 0 ? fastest : 0.0;
     }
     isPossible &= bad == 0;
@@ -62,21 +71,23 @@ std::optional<double> fastestRateInRows(const Patch& patch, const euler::Stiffen
   return isPossible ? std::optional(most) : std::nullopt;
 }
 
-/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d) of the gas.
+/// Computes dt = cfl / r, where r is the greatest CrossingRate of the gas from (|v_d| + c) / h_d along each axis.
 /// Throws NumericalError where its density, or p + p_inf, is not positive.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const euler::Gas& gas = settings.gas.gas;
+  const euler::CrossingRate<D> crossing(settings.gas.courant);
   std::optional<double> rate;
-  if (!gas.law) rate = fastestRateInRows<D>(patch, euler::lawOf<euler::StiffenedGas>(gas), cells);
-  const double most = rate ? *rate : fastestRate<D>(patch, gas, cells);
-  if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
+  if (!gas.law) rate = fastestRateInRows<D>(patch, euler::lawOf<euler::StiffenedGas>(gas), crossing, cells);
+  const double most = rate ? *rate : fastestRate<D>(patch, gas, crossing, cells);
+  if (most > 0) dt.add(settings.gas.courant.number / most, "CFL");
 }
 
 /// Computes the stable time step of several gases, like computeStableTimeStep.
 template <int D>
 void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const Level& level = patch.level();
+  const euler::CrossingRate<D> crossing(settings.gas.courant);
   double most = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (cells.isEmpty(cell)) return;
@@ -85,11 +96,15 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
     const double rho = w[euler::kDensity], p = w[euler::kPressure<D>];
     if (!(gas.heat(rho, p) > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, p);
     const double c = std::sqrt(gas.soundSpeedSquared(rho, p));
-    double rate = 0;
-    for (int d = 0; d < D; ++d) rate += (std::abs(w[euler::kVelocity(d)]) + c) * level.inverseSpacing(d);
-    most = std::max(most, rate);
+    double sum = 0, greatest = 0;
+    for (int d = 0; d < D; ++d) {
+      const double one = (std::abs(w[euler::kVelocity(d)]) + c) * level.inverseSpacing(d);
+      sum += one;
+      greatest = std::max(greatest, one);
+    }
+    most = std::max(most, crossing(sum, greatest));
   });
-  if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
+  if (most > 0) dt.add(settings.gas.courant.number / most, "CFL");
 }
 
 /// Computes dt = cfl times the time in which the fastest wave of a body crosses a cell. This limit is needed because
