@@ -42,12 +42,12 @@ class BoxSums {
         length_(static_cast<std::size_t>(blocks * Lanes::count)),
         size_(N * length_),
         past_(history * rows),
-        finished_(std::make_unique_for_overwrite<double[]>(size_)) {
+        finished_(alignedNumbers(size_)) {
     for (int d = 1; d < D; ++d) lowest_[d] = visited.lower[d];
-    if constexpr (D > 1) waiting_[0] = std::make_unique_for_overwrite<double[]>(rows / width * slots * pairs * size_);
+    if constexpr (D > 1) waiting_[0] = alignedNumbers(rows / width * slots * pairs * size_);
     if constexpr (D > 2) {
       along_ = static_cast<std::size_t>(visited.extent(1));
-      waiting_[1] = std::make_unique_for_overwrite<double[]>(slots * pairs * along_ * size_);
+      waiting_[1] = alignedNumbers(slots * pairs * along_ * size_);
     }
   }
 
@@ -73,9 +73,7 @@ class BoxSums {
     const bool isFirst = !isReached_[row];
     isReached_[row] = true;
     if (most_ <= 1) {
-      const Way way = wayFromHere(row);
-#pragma GCC unroll 4
-      for (std::size_t n = 0; n < N; ++n) bring(way, n, terms(n));
+      bring(ways_[row], terms);
     } else {
       for (std::size_t n = 0; n < N; ++n)
         if (isFirst)
@@ -113,13 +111,17 @@ class BoxSums {
   }
 
  private:
-  /// Where the terms of a row around the block go. These addresses are the same for all N sums, and found only once.
+  /// What the sum of a visited row does in a row of nodes or cells around it, and that of a row in a plane: begins or
+  /// continues a pair of terms, or completes the sum of all pairs, because no later row or plane reaches it.
+  enum class Role { begins, continues, completes };
+  static constexpr Role roleOf(std::size_t k) {
+    return k == 0 ? Role::completes : k < width / 2 ? Role::continues : Role::begins;
+  }
+  /// Where the terms of a row around the block go, at the beginning of the row. It is the same for all N sums.
   struct Way {
-    std::array<std::array<Lanes, width - 1>*, history> past;  ///< terms of the row in earlier blocks, the oldest first
-    double *inRow = nullptr, *inPlane = nullptr, *finished;  ///< sums that wait in the row and plane, and complete ones
-    std::size_t toPairInRow = 0, toPairInPlane = 0;          ///< distances between pairs of terms of these sums
-    std::size_t along = 0, plane = 0;                        ///< which of the rows and planes around the block it is
-    std::size_t length;                                      ///< distance between the sums 0 to N - 1
+    std::array<std::array<Lanes, width - 1>*, history> past;  ///< terms of the row in earlier blocks
+    double *inRow = nullptr, *inPlane = nullptr;              ///< the pairs of terms to which the visited row belongs
+    Role ofRow = Role::completes, ofPlane = Role::completes;
   };
   /// Number of the row around a cell that contains the node or cell k of a footprint.
   static std::size_t rowOf(const Footprint<D>& footprint, const Index<D>& k) {
@@ -144,27 +146,21 @@ class BoxSums {
   }
   /// Brings the sums over several particles of each cell or, where there are none, only what earlier blocks bring.
   void bringRest(std::size_t row) {
-    const bool isEmpty = !isReached_[row] && emptyFor_[row] >= history;
-    if (D > 1 && isEmpty && ways_[row].along > 0) return bringNothing(ways_[row]);
-    const Way way = wayFromHere(row);
-    for (std::size_t n = 0; n < N; ++n) {
-      if (isEmpty) {
-        pass(way, n, 0);
-      } else if (!isReached_[row]) {
-        bring(way, n, Terms{});
-      } else {
-        Terms terms = sums_[row][n];
-        if (most_ > 2)
-          for (std::size_t k = 0; k < width; ++k) terms[k] += lost_[row][n][k];
-        bring(way, n, terms);
-      }
+    const Way& way = ways_[row];
+    if (isReached_[row]) {
+      if (most_ > 2)
+        for (std::size_t n = 0; n < N; ++n)
+          for (std::size_t k = 0; k < width; ++k) sums_[row][n][k] += lost_[row][n][k];
+      bring(
+          way, [&](std::size_t n) __attribute__((always_inline))->const Terms& { return sums_[row][n]; });
+    } else if (emptyFor_[row] < history) {
+      const Terms none{};
+      bring(
+          way, [&](std::size_t) __attribute__((always_inline))->const Terms& { return none; });
+    } else if (D == 1 || way.ofRow != Role::continues) {
+      pass(
+          way, [](std::size_t) __attribute__((always_inline)) { return Lanes(0); });
     }
-  }
-  /// Begins the sums that wait in a row with 0, if the visited row is the first that reaches it.
-  void bringNothing(const Way& way) {
-    if (way.along < width / 2) return;
-    double* first = way.inRow + (width - 1 - way.along) * way.toPairInRow + place_;
-    for (std::size_t n = 0; n < N; ++n) Lanes(0).copyTo(first + n * way.length);
   }
 
   /// The way of a row from the beginning of the visited row on.
@@ -172,41 +168,39 @@ class BoxSums {
     Way way;
     for (std::size_t ago = 0; ago < history; ++ago) way.past[ago] = past_[ago * rows + row].data();
     if constexpr (D > 1) {
-      way.along = row % width;
-      way.plane = row / width;
-      way.toPairInRow = size_;
-      way.inRow = &waiting_[0][(way.plane * slots + (row_[1] + way.along) % slots) * pairs * size_];
+      const std::size_t along = row % width, plane = row / width;
+      way.ofRow = roleOf(along);
+      way.inRow = &waiting_[0][((plane * slots + (row_[1] + along) % slots) * pairs + pairOf(along)) * size_];
+      if constexpr (D > 2) {
+        way.ofPlane = roleOf(plane);
+        way.inPlane = &waiting_[1][(((row_[2] + plane) % slots * pairs + pairOf(plane)) * along_ + row_[1]) * size_];
+      }
     }
-    if constexpr (D > 2) {
-      way.toPairInPlane = along_ * size_;
-      way.inPlane = &waiting_[1][((row_[2] + way.plane) % slots * pairs * along_ + row_[1]) * size_];
-    }
-    way.finished = finished_.get();
-    way.length = length_;
     return way;
   }
-  /// The way of a row from the block on.
-  [[gnu::always_inline]] Way wayFromHere(std::size_t row) const {
-    Way way = ways_[row];
-    if constexpr (history > 1)
-      std::rotate(way.past.begin(), way.past.begin() + static_cast<std::ptrdiff_t>(oldest_), way.past.end());
-    if (D > 1) way.inRow += place_;
-    if (D > 2) way.inPlane += place_;
-    way.finished += place_;
-    return way;
-  }
+  static constexpr std::size_t pairOf(std::size_t k) { return std::min(k, width - 1 - k); }
 
   /// Adds up the terms of this block and of earlier ones at the same nodes, the first of which is the lowest that the
   /// first cell of this block reaches.
-  [[gnu::always_inline]] static void bring(const Way& way, std::size_t n, const Terms& terms) {
+  template <class TermsOf>
+  [[gnu::always_inline]] void bring(const Way& way, TermsOf&& terms) {
     static_assert(pairs == 2 || pairs == 3);
-    Lanes sum = pairOfCells<0>(way, n, terms) + pairOfCells<1>(way, n, terms);
-    if constexpr (pairs > 2) sum += pairOfCells<2>(way, n, terms);
-    for (std::size_t k = 1; k < width; ++k) way.past[0][n][k - 1] = terms[k];
-    pass(way, n, sum);
+    pass(
+        way, [&](std::size_t n) __attribute__((always_inline)) {
+          const Terms all = terms(n);
+          Lanes sum = pairOfCells<0>(way, n, all) + pairOfCells<1>(way, n, all);
+          if constexpr (pairs > 2) sum += pairOfCells<2>(way, n, all);
+          for (std::size_t k = 1; k < width; ++k) past(way, 0)[n][k - 1] = all[k];
+          return sum;
+        });
+  }
+  /// The terms of a row in earlier blocks, the oldest first.
+  [[gnu::always_inline]] std::array<Lanes, width - 1>* past(const Way& way, std::size_t number) const {
+    if constexpr (history == 1) return way.past[0];
+    return way.past[(oldest_ + number) % history];
   }
   template <std::size_t pair>
-  [[gnu::always_inline]] static Lanes pairOfCells(const Way& way, std::size_t n, const Terms& terms) {
+  [[gnu::always_inline]] Lanes pairOfCells(const Way& way, std::size_t n, const Terms& terms) const {
     constexpr std::size_t other = width - 1 - pair;
     if constexpr (pair == other)
       return fromCells<pair>(way, n, terms);
@@ -216,10 +210,10 @@ class BoxSums {
   /// What cells bring to the k-th of the nodes or cells that they reach: each lane has that of the cell k before its
   /// own.
   template <std::size_t k>
-  [[gnu::always_inline]] static Lanes fromCells(const Way& way, std::size_t n, const Terms& terms) {
+  [[gnu::always_inline]] Lanes fromCells(const Way& way, std::size_t n, const Terms& terms) const {
     constexpr std::size_t back = (k + Lanes::count - 1) / Lanes::count, start = back * Lanes::count - k;
     const auto ofBlock = [&](std::size_t ago) __attribute__((always_inline))->const Lanes& {
-      return ago == 0 ? terms[k] : way.past[history - ago][n][k - 1];
+      return ago == 0 ? terms[k] : past(way, history - ago)[n][k - 1];
     };
     if constexpr (start == 0)
       return ofBlock(back);
@@ -227,24 +221,46 @@ class BoxSums {
       return window<static_cast<int>(start)>(ofBlock(back), ofBlock(back - 1));
   }
 
-  /// Adds what the visited row brings to a row around it and, if the sum over its rows is then complete, to a plane.
-  [[gnu::always_inline]] static void pass(const Way& way, std::size_t n, Lanes value) {
-    const std::size_t at = n * way.length;
-    if (D > 1 && !isComplete(way.inRow + at, way.toPairInRow, way.along, value)) return;
-    if (D > 2 && !isComplete(way.inPlane + at, way.toPairInPlane, way.plane, value)) return;
-    (value + 0).copyTo(way.finished + at);  // never -0
-  }
-  /// Adds to the sums that wait in a row or plane, the k-th that the visited one reaches; its pairs of terms are
-  /// `distance` apart. Those of the lowest one are then complete, and `value` becomes their sum.
-  [[gnu::always_inline]] static bool isComplete(double* waiting, std::size_t distance, std::size_t k, Lanes& value) {
-    if (k == 0) {
-      value += Lanes::at(waiting);
-      for (std::size_t pair = 1; pair < pairs; ++pair) value += Lanes::at(waiting + pair * distance);
-      return true;
+  /// Adds what the visited row brings to a row around it, value(n) to sum n, and, if the sum over its rows is then
+  /// complete, to a plane.
+  template <class Value>
+  [[gnu::always_inline]] void pass(const Way& way, Value&& value) {
+    const auto inPlane = [&](std::size_t n, const Lanes& sum) __attribute__((always_inline)) {
+      if constexpr (D > 2) {
+        double* at = way.inPlane + place_ + n * length_;
+        if (way.ofPlane == Role::begins) return sum.copyTo(at);
+        if (way.ofPlane == Role::continues) return (Lanes::at(at) + sum).copyTo(at);
+        return finish(n, completed(at, along_ * size_, sum));
+      }
+      finish(n, sum);
+    };
+    if constexpr (D == 1) {
+      eachSum([&](std::size_t n) __attribute__((always_inline)) { inPlane(n, value(n)); });
+    } else {
+      double* at = way.inRow + place_;
+      if (way.ofRow == Role::begins)
+        eachSum([&](std::size_t n) __attribute__((always_inline)) { value(n).copyTo(at + n * length_); });
+      else if (way.ofRow == Role::continues)
+        eachSum([&](std::size_t n) __attribute__((always_inline)) {
+          (Lanes::at(at + n * length_) + value(n)).copyTo(at + n * length_);
+        });
+      else
+        eachSum([&](std::size_t n)
+                    __attribute__((always_inline)) { inPlane(n, completed(at + n * length_, size_, value(n))); });
     }
-    double* pair = waiting + std::min(k, width - 1 - k) * distance;
-    (k < width / 2 ? Lanes::at(pair) + value : value).copyTo(pair);
-    return false;
+  }
+  template <class Visit>
+  [[gnu::always_inline]] static void eachSum(Visit&& visit) {
+#pragma GCC unroll 4
+    for (std::size_t n = 0; n < N; ++n) visit(n);
+  }
+  /// The sum over the pairs of terms that wait in a row or plane, `distance` apart, the first at `waiting`.
+  [[gnu::always_inline]] static Lanes completed(const double* waiting, std::size_t distance, Lanes value) {
+    for (std::size_t pair = 0; pair < pairs; ++pair) value += Lanes::at(waiting + pair * distance);
+    return value;
+  }
+  [[gnu::always_inline]] void finish(std::size_t n, const Lanes& sum) {
+    (sum + 0).copyTo(&finished_[n * length_ + place_]);  // never -0
   }
 
   int first_;           ///< index of the first node or cell of a row
@@ -260,8 +276,8 @@ class BoxSums {
   Index<D> lowest_;
   std::array<std::size_t, D> row_{};  ///< distance of the visited row from the first one along the axes but the first
   std::size_t along_ = 0;             ///< number of rows of a plane
-  std::array<std::unique_ptr<double[]>, 2> waiting_;
-  std::unique_ptr<double[]> finished_;
+  std::array<AlignedNumbers, 2> waiting_;
+  AlignedNumbers finished_;
   std::array<Way, rows> ways_;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
 
 #include "components/mpm/gas/conserving/footprint.hpp"
 
@@ -21,7 +20,8 @@ class GridFields {
       stride_[d] = static_cast<std::ptrdiff_t>(all);
       all *= static_cast<std::size_t>(box_.extent(static_cast<int>(d)));
     }
-    values_ = cleared ? std::make_unique<double[]>(all) : std::make_unique_for_overwrite<double[]>(all);
+    values_ = alignedNumbers(all);
+    if (cleared) std::fill_n(values_.get(), all, 0);
   }
 
   double& at(std::size_t field, const Index<D>& index) { return values_[field * size_ + place(index)]; }
@@ -50,7 +50,7 @@ class GridFields {
   Box box_;
   std::size_t size_;                        ///< length of a row in memory
   std::array<std::ptrdiff_t, D> stride_{};  ///< along all axes but the first
-  std::unique_ptr<double[]> values_;
+  AlignedNumbers values_;
 };
 
 }  // namespace tushar::mpm::gas::conserving

@@ -70,7 +70,7 @@ class Motion {
       : update_(&update), dt_(dt), box_(patch.cells().grown(Footprint<D>::most, D)) {
     length_ = static_cast<std::size_t>(box_.extent(0) + 2 * Lanes::count);
     slab_ = fields * length_ * (D == 3 ? static_cast<std::size_t>(box_.extent(1)) : 1);
-    values_ = std::make_unique_for_overwrite<double[]>(slots * slab_);
+    values_ = alignedNumbers(slots * slab_);
     for (std::size_t slot = 0; slot < slots; ++slot) clearRim(&values_[slot * slab_]);
     next_ = patch.cells().lower[D - 1] - Footprint<D>::overhang;
   }
@@ -162,7 +162,7 @@ class Motion {
   std::size_t length_, slab_;  ///< numbers of a row and of a slab
   int next_;                   ///< the first slab that has not been computed
   std::array<bool, slots> relaxes_{};
-  std::unique_ptr<double[]> values_;
+  AlignedNumbers values_;
 };
 
 template <int D, class Scheme>

@@ -1,5 +1,6 @@
 #include "components/mpm/gas/conserving/box_sums.hpp"
 #include "components/mpm/gas/conserving/grid_fields.hpp"
+#include "components/mpm/gas/conserving/parts.hpp"
 #include "components/mpm/gas/conserving/redistribute.hpp"
 #include "components/mpm/particles/ids.hpp"
 
@@ -51,96 +52,79 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
   return select(swing > 0.8, 0.8 / swing, 1) * slopes;
 }
 
-/// The parts of the particles of a batch, each in one cell.
+/// What the boxes of a batch bring to the sums of the cells that they overlap. What is the same for all parts in a cell
+/// of an axis is computed once for each of these cells.
 template <int D>
-struct Part {
-  LanesVec<D> x, edges;  ///< centre and edge lengths
-  Lanes mass, internal;  ///< parts of the particle's mass and internal energy
-};
-
-/// The parts into which boxes are cut at the faces of cells.
-template <int D>
-class Parts {
- public:
-  /// `density` and `energy` are the relative slopes with which mass and internal energy are divided among the parts.
-  Parts(const Footprint<D>& footprint, const LanesVec<D>& centre, const LanesVec<D>& density,
-        const LanesVec<D>& energy) {
-    footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
-      Part<D>& part = at(k);
-      for (int d = 0; d < D; ++d) {
-        const auto& span = footprint.along[d];
-        part.x[d] = span.middle(k[d]);
-        part.edges[d] = span.upperOf(k[d]) - span.lowerOf(k[d]);
-      }
-      part.mass = share * (1 + density.dot(part.x - centre));
-      part.internal = share * (1 + energy.dot(part.x - centre));
-    });
-    const Lanes mass = sum(footprint, [](const Part<D>& part) { return part.mass; });
-    const Lanes internal = sum(footprint, [](const Part<D>& part) { return part.internal; });
-    footprint.forEachPart([&](const Index<D>& k, const Lanes&) {
-      at(k).mass /= mass;
-      at(k).internal /= internal;
-    });
-  }
-  /// The part in cell k of the footprint.
-  Part<D>& at(const Index<D>& k) { return parts_[Footprint<D>::number(k)]; }
-  /// Sum of `value(part)` over the parts.
-  template <class Value>
-  Lanes sum(const Footprint<D>& footprint, Value&& value) {
-    return footprint.sumOverParts([&](const Index<D>& k, const Lanes&) { return value(at(k)); });
-  }
-
- private:
-  std::array<Part<D>, Footprint<D>::places> parts_;
-};
-
-/// Adds a part to the sums of its cell; `add(field, term)` adds to one of them.
-template <int D, class Add>
-void bring(const Part<D>& part, const LanesVec<D>& dx, const LanesVec<D>& u, const LanesTensor<D>& gradient,
-           const LanesModes<D>& modes, const Lanes& surplus, Add&& add) {
+struct Brought {
   using Sums = CellSums<D>;
-  const auto put = [&](std::size_t field, const LanesVec<D>& values) {
-    for (std::size_t d = 0; d < D; ++d) add(field + d, part.mass * values[static_cast<int>(d)]);
-  };
-  const LanesVec<D> spread = part.edges.cwiseAbs2() / 12;
-  add(Sums::mass, part.mass);
-  add(Sums::internal, part.internal);
-  add(Sums::kinetic, part.mass * (0.5 * u.squaredNorm() + surplus));
-  put(Sums::momentum, u);
-  put(Sums::offset, dx);
-  put(Sums::square, dx.cwiseAbs2() + spread);
-  for (int d = 0; d < D; ++d)
-    put(Sums::moment + static_cast<std::size_t>(d) * D, u * dx[d] + gradient.col(d) * spread[d]);
-  std::size_t field = Sums::modes;
-  for (std::size_t a = 1; a < std::size_t{1} << D; ++a) {
-    if (!isMixed(a)) continue;
-    put(field, modes.col(static_cast<int>(a) - 1));
-    field += D;
+  template <class T>
+  using AlongAxes = typename Parts<D>::template AlongAxes<T>;
+
+  AlongAxes<Lanes> offset, square;              ///< dx [m] and dx² + l²/12 [m²]
+  AlongAxes<LanesVec<D>> velocity, covariance;  ///< see Parts::velocities; B_d l_d²/12 [m²/s]
+  LanesVec<D> mean;                             ///< velocity of the centroid [m/s]
+  LanesModes<D> modes;
+  Lanes surplus;  ///< energy per mass that becomes kinetic energy within the cells [J/kg]
+
+  Brought(const CellsOf<D>& grid, const Footprint<D>& footprint, const Parts<D>& parts,
+          const LanesTensor<D>& gradient) {
+    for (std::size_t d = 0; d < D; ++d)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(footprint.along[d].cells); ++k) {
+        const Lanes middle = grid.along[d].centre(widen(footprint.along[d].first + static_cast<int>(k)));
+        offset[d][k] = parts.middle[d][k] - middle;
+        square[d][k] = offset[d][k] * offset[d][k] + parts.spread[d][k];
+        for (int c = 0; c < D; ++c) covariance[d][k][c] = gradient(c, static_cast<int>(d)) * parts.spread[d][k];
+      }
   }
-}
+  /// Adds the part in cell k, which has this mass and internal energy; `add(field, term)` adds to one of the sums.
+  template <class Add>
+  [[gnu::always_inline]] void bring(const Index<D>& k, const Lanes& mass, const Lanes& internal, Add&& add) const {
+    const auto of = [&](const auto& along, std::size_t d) -> const auto& {
+      return along[d][static_cast<std::size_t>(k[static_cast<int>(d)])];
+    };
+    const LanesVec<D> u = mean + Parts<D>::sumOverAxes(velocity, k);
+    add(Sums::mass, mass);
+    add(Sums::internal, internal);
+    add(Sums::kinetic, mass * (0.5 * u.squaredNorm() + surplus));
+    for (std::size_t d = 0; d < D; ++d) {
+      add(Sums::momentum + d, mass * u[static_cast<int>(d)]);
+      add(Sums::offset + d, mass * of(offset, d));
+      add(Sums::square + d, mass * of(square, d));
+      for (std::size_t c = 0; c < D; ++c) {
+        const int row = static_cast<int>(c);
+        add(Sums::moment + d * D + c, mass * (u[row] * of(offset, d) + of(covariance, d)[row]));
+      }
+    }
+    std::size_t field = Sums::modes;
+    for (std::size_t a = 1; a < std::size_t{1} << D; ++a) {
+      if (!isMixed(a)) continue;
+      for (int d = 0; d < D; ++d) add(field++, mass * modes(d, static_cast<int>(a) - 1));
+    }
+  }
+};
 
 /// Cuts a batch of particles at the faces of cells, and adds the parts to the sums.
 template <int D>
 void cut(const Level& level, const CellsOf<D>& grid, const Batch<D>& batch, const OldBoxes<D>& boxes,
          const Contents<D>& contents, typename CellSums<D>::Fields& sums) {
-  const LanesVec<D> centre = load(boxes.x, batch), edges = load(boxes.edges, batch), v = load(boxes.velocity, batch);
+  const LanesVec<D> centre = load(boxes.x, batch), edges = load(boxes.edges, batch);
   const LanesModes<D> modes = load(boxes.modes, batch);
   const Lanes m = batch.only(load(boxes.mass, batch)), e = load(boxes.internalEnergy, batch),
               affine = load(boxes.affineEnergy, batch);
   const Footprint<D> footprint(grid, batch, centre, edges, Computes<SpanValues::weights>());
   Parts<D> parts(footprint, centre, relativeSlopes<D>(level, contents, 0, batch, edges),
                  relativeSlopes<D>(level, contents, 1, batch, edges));
-  LanesVec<D> centroid;
-  for (int d = 0; d < D; ++d)
-    centroid[d] = parts.sum(footprint, [&](const Part<D>& part) { return part.mass * part.x[d]; });
+  const LanesVec<D> centroid = parts.centroid();
   LanesTensor<D> gradient;
   for (int d = 0; d < D; ++d) gradient.col(d) = modes.col(gradientColumn(d));
-  const Lanes kinetic = parts.sum(footprint, [&](const Part<D>& part) -> Lanes {
-    return 0.5 * part.mass * (gradient * (part.x - centroid)).squaredNorm();
-  });
-  const Lanes most = affine + 0.5 * e;
+  const Lanes kinetic = parts.kineticEnergy(parts.velocities(gradient, centroid)), most = affine + 0.5 * e;
   gradient *= select(kinetic > most, sqrt(most / kinetic), 1);
   const Lanes surplus = affine - min(kinetic, most), warm = m * e * (1 + min(surplus, 0) / e);
+  Brought<D> brought(grid, footprint, parts, gradient);
+  brought.velocity = parts.velocities(gradient, centroid);
+  brought.mean = load(boxes.velocity, batch);
+  brought.modes = modes;
+  brought.surplus = max(surplus, 0);
   const std::size_t first = sums.firstOf(footprint);
   footprint.forEachRowOfCells([&](Index<D> k, const Lanes&) {
     std::array<typename CellSums<D>::Fields::Terms, CellSums<D>::count> terms;
@@ -148,16 +132,12 @@ void cut(const Level& level, const CellsOf<D>& grid, const Batch<D>& batch, cons
     for (std::size_t c = 0; c < terms[0].size(); ++c)
       if (c < first || c >= end)
         for (auto& term : terms) term[c] = 0;
-    for (std::size_t c = first; c < end; ++k[0], ++c) {
-      Part<D>& part = parts.at(k);
-      LanesVec<D> middle;
-      for (int d = 0; d < D; ++d) middle[d] = grid.along[d].centre(widen(footprint.along[d].first + k[d]));
-      const LanesVec<D> u = v + gradient * (part.x - centroid);
-      part.mass *= m;
-      part.internal *= warm;
-      bring<D>(part, part.x - middle, u, gradient, modes, max(surplus, 0),
-               [&](std::size_t field, const Lanes& term) { terms[field][c] = term; });
-    }
+    for (std::size_t c = first; c < end; ++k[0], ++c)
+      brought.bring(
+          k, parts.mass(k) * m,
+          parts.internal(k) * warm, [&](std::size_t field, const Lanes& term) __attribute__((always_inline)) {
+            terms[field][c] = term;
+          });
     sums.add(footprint, k, [&](std::size_t n) { return terms[n]; });
   });
 }

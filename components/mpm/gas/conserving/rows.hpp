@@ -1,11 +1,26 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <new>
 
 #include "core/base/lanes.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::gas::conserving {
+
+/// Releases what alignedNumbers returns.
+struct ReleaseAligned {
+  void operator()(double* numbers) const { ::operator delete[](numbers, std::align_val_t(alignof(Lanes))); }
+};
+/// Numbers whose first one begins a cache line, so that whole registers of them never lie in two lines.
+using AlignedNumbers = std::unique_ptr<double[], ReleaseAligned>;
+
+/// Numbers with the values that the memory happens to contain.
+inline AlignedNumbers alignedNumbers(std::size_t count) {
+  return AlignedNumbers(
+      static_cast<double*>(::operator new[](count * sizeof(double), std::align_val_t(alignof(Lanes)))));
+}
 
 /// A matrix of Lanes: one matrix per lane, for several particles, cells or nodes side by side.
 template <int Rows, int Columns>
