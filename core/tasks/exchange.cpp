@@ -27,6 +27,12 @@ void shiftPositions(const grid::Level& level, const Index3& shift, double* x, in
   }
 }
 
+/// Asks for the first cache lines of some bytes, which are soon to be read.
+void prefetch(const std::byte* from, std::size_t bytes) {
+  constexpr std::size_t line = 64, most = 6 * line;
+  for (std::size_t k = 0; k < std::min(bytes, most); k += line) __builtin_prefetch(from + k);
+}
+
 }  // namespace
 
 GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill) {
@@ -334,16 +340,22 @@ void Exchange::fillCopies(const BoundGhostFill& fill, const Patch& patch, Receiv
   const std::vector<data::GhostRun>& runs = warehouse_->particles(fill.set, material, patch.id()).ghostRuns();
   if (runs.empty()) return;
   const grid::Grid& grid = warehouse_->grid();
-  const Variable here = warehouse_->variable(fill.generation, fill.variable, patch.id());
-  for (const data::GhostRun& run : runs) {
+  const FilledValues values(*warehouse_, fill);
+  const std::size_t bytes = label->bytes;
+  const bool shifts = label->name == data::positionName;
+  std::byte* const here = values.on(patch.id()).values;
+  const auto original = [&](const data::GhostRun& run) { return values.on(run.patch).values + run.first * bytes; };
+  constexpr std::size_t ahead = 12;  // short runs are far from one another in memory
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const data::GhostRun& run = runs[k];
     if (grid.isMine(run.patch) == (messages != nullptr)) continue;
-    const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
-    const std::byte* from = messages ? messages->next(grid.ownerOf(run.patch), length)
-                                     : warehouse_->variable(fill.generation, fill.variable, run.patch).values +
-                                           static_cast<std::size_t>(run.first) * label->bytes;
-    std::byte* to = here.values + static_cast<std::size_t>(run.to) * label->bytes;
+    if (!messages && k + ahead < runs.size() && grid.isMine(runs[k + ahead].patch))
+      prefetch(original(runs[k + ahead]), runs[k + ahead].count * bytes);
+    const std::size_t length = run.count * bytes;
+    const std::byte* from = messages ? messages->next(grid.ownerOf(run.patch), length) : original(run);
+    std::byte* to = here + run.to * static_cast<std::ptrdiff_t>(bytes);
     std::memcpy(to, from, length);
-    if (label->name == data::positionName && !(run.shift == Index3{}))
+    if (shifts && !(run.shift == Index3{}))
       shiftPositions(patch.level(), run.shift, reinterpret_cast<double*>(to), run.count);
   }
 }
