@@ -93,15 +93,17 @@ void gatherInCells(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
   const auto visit = [&](const Batch<D>& batch) {
     const Footprint<D> footprint(grid, batch, load(x, batch), load(edges, batch), Computes<SpanValues::weights>());
     const Lanes m = batch.only(load(mass, batch)), energy = m * load(internalEnergy, batch);
-    const std::size_t first = sums.firstOf(footprint), cells = static_cast<std::size_t>(footprint.along[0].cells);
-    footprint.forEachRowOfCells([&](const Index<D>& k, const Lanes& part) {
-      std::array<typename BoxSums<D, 2, 0>::Terms, 2> terms{};
-      for (std::size_t c = 0; c < cells; ++c) {
-        const Lanes share = part * footprint.along[0].part[c];
-        terms[0][first + c] = share * m;
-        terms[1][first + c] = share * energy;
-      }
-      sums.add(footprint, k, [&](std::size_t n) { return terms[n]; });
+    footprint.withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
+      constexpr std::size_t cells = decltype(extent)::cells;
+      footprint.forEachRowOfCells([&](const Index<D>& k, const Lanes& part) __attribute__((always_inline)) {
+        sums.add(
+            footprint, k, [&](std::size_t n) __attribute__((always_inline)) {
+              std::array<Lanes, cells> terms;
+              for (std::size_t c = 0; c < cells; ++c)
+                terms[c] = part * footprint.along[0].part[c] * (n == 0 ? m : energy);
+              return sums.widened(extent, terms);
+            });
+      });
     });
   };
   const auto finish = [&](const Index<D>& row) {

@@ -125,20 +125,19 @@ void cut(const Level& level, const CellsOf<D>& grid, const Batch<D>& batch, cons
   brought.mean = load(boxes.velocity, batch);
   brought.modes = modes;
   brought.surplus = max(surplus, 0);
-  const std::size_t first = sums.firstOf(footprint);
-  footprint.forEachRowOfCells([&](Index<D> k, const Lanes&) {
-    std::array<typename CellSums<D>::Fields::Terms, CellSums<D>::count> terms;
-    const std::size_t end = first + static_cast<std::size_t>(footprint.along[0].cells);
-    for (std::size_t c = 0; c < terms[0].size(); ++c)
-      if (c < first || c >= end)
-        for (auto& term : terms) term[c] = 0;
-    for (std::size_t c = first; c < end; ++k[0], ++c)
-      brought.bring(
-          k, parts.mass(k) * m,
-          parts.internal(k) * warm, [&](std::size_t field, const Lanes& term) __attribute__((always_inline)) {
-            terms[field][c] = term;
-          });
-    sums.add(footprint, k, [&](std::size_t n) { return terms[n]; });
+  footprint.withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
+    constexpr std::size_t cells = decltype(extent)::cells;
+    footprint.forEachRowOfCells([&](Index<D> k, const Lanes&) __attribute__((always_inline)) {
+      std::array<std::array<Lanes, cells>, CellSums<D>::count> terms;
+      for (std::size_t c = 0; c < cells; ++k[0], ++c)
+        brought.bring(
+            k, parts.mass(k) * m,
+            parts.internal(k) * warm, [&](std::size_t field, const Lanes& term) __attribute__((always_inline)) {
+              terms[field][c] = term;
+            });
+      sums.add(
+          footprint, k, [&](std::size_t n) __attribute__((always_inline)) { return sums.widened(extent, terms[n]); });
+    });
   });
 }
 

@@ -23,11 +23,6 @@ struct Gathered {
   Lanes slip;    ///< beta (2 - beta) |r|² / 2 [J/kg]; for apic, twice this
   Lanes square;  ///< |y|² or |g|² [J/kg]
 
-  static Gathered zero() {
-    Gathered none{};
-    none.moments.fill(LanesVec<D>::Zero());
-    return none;
-  }
   static Lanes normal(int axis, const FaceVelocity& velocity) { return velocity[apic ? axis : 0]; }
   /// Part of the mean velocity with which the faces move that are normal to the axis behind `Axis`.
   [[gnu::always_inline]] const Lanes& ofNextFace(int part) const {
@@ -97,15 +92,19 @@ template <int D, class Scheme, bool isFirst>
   add(sum.square, w, node.square);
 }
 
-/// Adds the sums over a row to those over a plane, or the sums over a plane to those over the footprint.
-template <int D, class Scheme, int Axis>
+/// Adds the sums over a row to those over a plane, or the sums over a plane to those over the footprint; the first ones
+/// of either side begin the sums.
+template <int D, class Scheme, int Axis, bool isFirst>
 [[gnu::always_inline]] inline void addSlice(const Span<Footprint<D>::overhang>& span, std::size_t k,
                                             const Gathered<D, Scheme, Axis - 1>& slice,
                                             Gathered<D, Scheme, Axis>& sum) {
   constexpr std::size_t half = std::size_t{1} << Axis;
   const Lanes w = span.weight[k];
   const auto add = [](Lanes & to, const Lanes& factor, const Lanes& value) __attribute__((always_inline)) {
-    to = multiplyAdd(factor, value, to);
+    if constexpr (isFirst)
+      to = factor * value;
+    else
+      to = multiplyAdd(factor, value, to);
   };
   for (std::size_t a = 0; a < slice.moments.size(); ++a)
     for (int d = 0; d < D; ++d) {
@@ -170,15 +169,18 @@ template <int D, class Scheme, int Axis, class Row>
   } else {
     std::array<Gathered<D, Scheme, Axis>, 2> sides;
     for (const int side : {0, 1}) {  // a loop, because the code would be twice as long without
-      Gathered<D, Scheme, Axis> onSide = Gathered<D, Scheme, Axis>::zero();
-      for (at[Axis] = span.below + side; at[Axis] >= 0 && at[Axis] < span.nodes(); at[Axis] += 2 * side - 1) {
+      Gathered<D, Scheme, Axis>& onSide = sides[static_cast<std::size_t>(side)];
+      const int first = span.below + side;
+      for (at[Axis] = first; at[Axis] >= 0 && at[Axis] < span.nodes(); at[Axis] += 2 * side - 1) {
         const std::size_t k = static_cast<std::size_t>(at[Axis]);
         Gathered<D, Scheme, Axis - 1> slice;
         gatherFromNodes<D, Scheme, Axis - 1>(extent, footprint, at, read,
                                              Footprint<D>::template slice<Axis>(field, span.arm[k]), slice);
-        addSlice<D, Scheme, Axis>(span, k, slice, onSide);
+        if (at[Axis] == first)
+          addSlice<D, Scheme, Axis, true>(span, k, slice, onSide);
+        else
+          addSlice<D, Scheme, Axis, false>(span, k, slice, onSide);
       }
-      sides[static_cast<std::size_t>(side)] = onSide;
     }
     sum = sides[0];
     addSide<D, Scheme, Axis>(sides[1], sum);
