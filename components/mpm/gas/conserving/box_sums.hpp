@@ -42,12 +42,12 @@ class BoxSums {
         length_(static_cast<std::size_t>(blocks * Lanes::count)),
         size_(N * length_),
         past_(history * rows),
-        finished_(alignedNumbers(size_)) {
+        finished_(AlignedNumbers(size_)) {
     for (int d = 1; d < D; ++d) lowest_[d] = visited.lower[d];
-    if constexpr (D > 1) waiting_[0] = alignedNumbers(rows / width * slots * pairs * size_);
+    if constexpr (D > 1) waiting_[0] = AlignedNumbers(rows / width * slots * pairs * size_);
     if constexpr (D > 2) {
       along_ = static_cast<std::size_t>(visited.extent(1));
-      waiting_[1] = alignedNumbers(slots * pairs * along_ * size_);
+      waiting_[1] = AlignedNumbers(slots * pairs * along_ * size_);
     }
   }
 

@@ -20,7 +20,7 @@ class GridFields {
       stride_[d] = static_cast<std::ptrdiff_t>(all);
       all *= static_cast<std::size_t>(box_.extent(static_cast<int>(d)));
     }
-    values_ = alignedNumbers(all);
+    values_ = AlignedNumbers(all);
     if (cleared) std::fill_n(values_.get(), all, 0);
   }
 

@@ -70,7 +70,7 @@ class Motion {
       : update_(&update), dt_(dt), box_(patch.cells().grown(Footprint<D>::most, D)) {
     length_ = static_cast<std::size_t>(box_.extent(0) + 2 * Lanes::count);
     slab_ = fields * length_ * (D == 3 ? static_cast<std::size_t>(box_.extent(1)) : 1);
-    values_ = alignedNumbers(slots * slab_);
+    values_ = AlignedNumbers(slots * slab_);
     for (std::size_t slot = 0; slot < slots; ++slot) clearRim(&values_[slot * slab_]);
     next_ = patch.cells().lower[D - 1] - Footprint<D>::overhang;
   }

@@ -2,25 +2,29 @@
 
 #include <algorithm>
 #include <memory>
-#include <new>
 
 #include "core/base/lanes.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// Releases what alignedNumbers returns.
-struct ReleaseAligned {
-  void operator()(double* numbers) const { ::operator delete[](numbers, std::align_val_t(alignof(Lanes))); }
-};
-/// Numbers whose first one begins a cache line, so that whole registers of them never lie in two lines.
-using AlignedNumbers = std::unique_ptr<double[], ReleaseAligned>;
+/// Numbers with the values that the memory happens to contain. The first one begins a cache line, so that whole
+/// registers of them never lie in two lines.
+class AlignedNumbers {
+ public:
+  AlignedNumbers() = default;
+  explicit AlignedNumbers(std::size_t count) : memory_(std::make_unique_for_overwrite<double[]>(count + Lanes::count)) {
+    void* start = memory_.get();
+    std::size_t bytes = (count + Lanes::count) * sizeof(double);
+    first_ = static_cast<double*>(std::align(alignof(Lanes), count * sizeof(double), start, bytes));
+  }
+  double& operator[](std::size_t k) const { return first_[k]; }
+  double* get() const { return first_; }
 
-/// Numbers with the values that the memory happens to contain.
-inline AlignedNumbers alignedNumbers(std::size_t count) {
-  return AlignedNumbers(
-      static_cast<double*>(::operator new[](count * sizeof(double), std::align_val_t(alignof(Lanes)))));
-}
+ private:
+  std::unique_ptr<double[]> memory_;
+  double* first_ = nullptr;
+};
 
 /// A matrix of Lanes: one matrix per lane, for several particles, cells or nodes side by side.
 template <int Rows, int Columns>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "components/mpm/gas/conserving/grid_fields.hpp"
 
 namespace tushar::mpm::gas::conserving {
@@ -13,8 +15,9 @@ class TwoSlabs {
   using Values = std::array<Lanes, N>;
 
   /// `load(part)` returns the values at the nodes or cells of a part of a row of `box`.
-  TwoSlabs(const Box& box, const Load& load)
-      : load_(load), box_(box), next_(box.lower[D - 1]), fields_(twoOf(box), false) {}
+  TwoSlabs(const Box& box, const Load& load) : load_(load), box_(box), next_(box.lower[D - 1]) {
+    if (D > 1) fields_.emplace(twoOf(box), false);
+  }
 
   /// Prepares the slabs `slab` - 1 and `slab`, counted along the last axis; `slab` never decreases.
   void moveTo(int slab) {
@@ -25,7 +28,7 @@ class TwoSlabs {
         rows.upper[D - 1] = next_ + 1;
         forEachRowPart<D>(rows, [&](const RowPart<D>& part) {
           const Values values = load_(part);
-          for (std::size_t n = 0; n < N; ++n) fields_.writeRow(n, {placeOf(part.first), part.count}, values[n]);
+          for (std::size_t n = 0; n < N; ++n) fields_->writeRow(n, {placeOf(part.first), part.count}, values[n]);
         });
       }
   }
@@ -34,14 +37,14 @@ class TwoSlabs {
     if constexpr (D == 1) return load_(part);
     const Index<D> first = placeOf(part.first);
     Values values;
-    for (std::size_t n = 0; n < N; ++n) values[n] = fields_.readRow(n, first);
+    for (std::size_t n = 0; n < N; ++n) values[n] = fields_->readRow(n, first);
     return values;
   }
 
  private:
   static Box twoOf(Box box) {
     box.lower[D - 1] = 0;
-    box.upper[D - 1] = D == 1 ? 1 : 2;
+    box.upper[D - 1] = 2;
     return box;
   }
   static Index<D> placeOf(Index<D> index) {
@@ -51,8 +54,8 @@ class TwoSlabs {
 
   Load load_;
   Box box_;
-  int next_;  ///< the first slab that has not been loaded
-  GridFields<D, N> fields_;
+  int next_;                                ///< the first slab that has not been loaded
+  std::optional<GridFields<D, N>> fields_;  ///< none in one dimension
 };
 
 /// TwoSlabs of the vectors or tensors `load(part)`.
