@@ -90,6 +90,7 @@ class MpmIce : public Component {
     if (gas_->waitsForFlames()) return "useInductionTime is not available on several levels; set it to false";
     return gas_->isImplicit() ? ice::pressureOnOneLevel : solids_->whyOneLevel();
   }
+  std::string whyOneBox() const override { return solids_->whyOneBox(); }
   std::string advice() const override;
   bool mayRepeatStep() const override { return true; }
   std::vector<std::string> foreignLabels() const override;

@@ -243,4 +243,53 @@ TYPED_TEST(BodiesAlongAxes, SweepFacesOnlyNearGas) {
   EXPECT_EQ(by.seen()[outside][0], 0.25);
 }
 
+namespace {
+
+/// A grid of 6 cells along each of D axes without its lower left corner of 3 x 3 cells.
+template <int D>
+grid::Domain withoutCorner() {
+  grid::Domain domain;
+  domain.resolution = {{6, 6, D == 3 ? 6 : 1}};
+  domain.upper[2] = D == 3 ? 1 : 0;
+  const int top = domain.resolution[2];
+  domain.boxes = {{{{0, 3, 0}}, {{6, 6, top}}}, {{{3, 0, 0}}, {{6, 3, top}}}};
+  return domain;
+}
+
+template <int D>
+void fillOutsideOfBodiesThatFillAll(double freeAtSide, double most) {
+  const Level level(withoutCorner<D>());
+  Shares<D> shares(6);
+  shares.volume.cells().fill(0);
+  Index<D> atSide{}, away{};
+  atSide[0] = 3;
+  away[0] = 4;
+  shares.volume.cells()[atSide] = freeAtSide;
+  shares.volume.cells()[away] = 0.5;
+  fillOutside<D>(level, {shares.volume.cells(), shares.coverage.cells()}, most);
+  EXPECT_EQ(shares.volume.seen()[away], 0.5);
+  EXPECT_EQ(shares.volume.seen()[atSide], freeAtSide);
+  forEach<D>(cube<D>(6), [&](const Index<D>& cell) {
+    const bool isOutside = cell[0] < 3 && cell[1] < 3;
+    if (isOutside) EXPECT_EQ(shares.volume.seen()[cell], 0);
+    for (int d = 0; d < D; ++d) {
+      const bool isInnerSide = d < 2 && cell[d] == 3 && cell[1 - d] < 3;
+      EXPECT_EQ(shares.coverage.seen()[cell][d], isOutside || isInnerSide ? 1 : 0) << cell[0] << ' ' << cell[1];
+    }
+  });
+}
+
+}  // namespace
+
+TEST(OutsideOfSeveralBoxes, IsFilledAndCovered) {
+  fillOutsideOfBodiesThatFillAll<2>(0, leastFreeVolume);
+  fillOutsideOfBodiesThatFillAll<3>(0, leastFreeVolume);
+  fillOutsideOfBodiesThatFillAll<2>(0.1, narrowFreeVolume);
+}
+
+TEST(OutsideOfSeveralBoxes, MustNotMeetGas) {
+  EXPECT_THROW(fillOutsideOfBodiesThatFillAll<2>(0.1, leastFreeVolume), NumericalError);
+  EXPECT_THROW(fillOutsideOfBodiesThatFillAll<3>(0.3, narrowFreeVolume), NumericalError);
+}
+
 }  // namespace tushar::mpmice

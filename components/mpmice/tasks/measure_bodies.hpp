@@ -5,6 +5,7 @@
 #include "components/mpmice/gas_in_cells.hpp"
 #include "components/mpmice/near_bodies.hpp"
 #include "components/mpmice/particle_box.hpp"
+#include "components/mpmice/tasks/fill_outside.hpp"
 #include "core/data/vanished.hpp"
 
 namespace tushar::mpmice {
@@ -80,6 +81,7 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
       taken.take(cell, boxes.of(frame, p));
     });
   taken.settle();
+  fillOutside<D>(patch.level(), free, leastFreeVolume);
 }
 
 /// Views of what one of several bodies leaves free.
@@ -268,6 +270,7 @@ void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
       }
     });
   taken.settle();
+  fillOutside<D>(level, free, narrowFreeVolume);
   sweeps.settle(needed);
 }
 
