@@ -12,6 +12,8 @@ constexpr double leastPressure = 1e-100, greatestPressure = 1e16;
 constexpr double roundOff = 4e-15;
 /// The relative change from which on the next step of Newton's method would change less than round-off.
 constexpr double nearlyDone = 1e-8;
+/// The volume fraction up to which the law of water may be outside the range where it is valid: a trace in hot gas.
+constexpr double leastShareOfWater = 1e-6;
 
 /// The density at which p = P0 + ((rho / rho_0)^n - 1) / (n K), or p = P0 (rho / rho_0)^(1 / (K P0)) below P0.
 double densityOfMurnaghan(const ColdCurve& cold, double pressure) {
@@ -39,8 +41,9 @@ BlendLaws::BlendLaws(const std::vector<Gas>& gases) : gases_(gases) {
   for (const Gas& gas : gases_) {
     const CurvedGas* law = gas.law ? std::get_if<CurvedGas>(gas.law.get()) : nullptr;
     const RealGas* spheres = gas.law ? std::get_if<RealGas>(gas.law.get()) : nullptr;
+    const Water* water = gas.law ? std::get_if<Water>(gas.law.get()) : nullptr;
     const double ofHeat = law ? law->gruneisen() : spheres ? spheres->gasConstant() / gas.specificHeat : gas.gamma - 1;
-    substances_.push_back({gas.specificHeat, ofHeat, gas.pInfinity, spheres ? spheres->covolume() : 0, law});
+    substances_.push_back({gas.specificHeat, ofHeat, gas.pInfinity, spheres ? spheres->covolume() : 0, law, water});
   }
 }
 
@@ -87,6 +90,15 @@ struct BlendLaws::Sums {
     energyOfHeat += mass * of.specificHeat - yield * perKelvin * cold;
     capacity += mass * of.specificHeat + yield * perKelvin * perKelvin * temperature;
   }
+  void add(double mass, const Water::Point& of, double pressure, double temperature) {
+    volume += mass * of.volume;
+    energy += mass * of.energy;
+    volumeOfPressure += mass * of.ofPressure;
+    volumeOfHeat += mass * of.ofTemperature;
+    energyOfPressure -= mass * (temperature * of.ofTemperature + pressure * of.ofPressure);
+    energyOfHeat += mass * (of.heatOfPressure - pressure * of.ofTemperature);
+    capacity += mass * of.heatOfPressure;
+  }
   /// rho c² [Pa] of gases that fill the volume 1.
   double modulus(double temperature) const {
     return 1 / (-volumeOfPressure - temperature * volumeOfHeat * volumeOfHeat / capacity);
@@ -98,6 +110,12 @@ BlendLaws::Sums BlendLaws::sumsAt(const double* masses, double pressure, double 
   Sums sums;
   for (std::size_t k = 0; k < substances_.size(); ++k) {
     if (!(masses[k] > 0)) continue;
+    if (const Water* water = substances_[k].water) {
+      const Water::Point at = water->at(pressure, temperature);
+      rho[k] = 1 / at.volume;
+      sums.add(masses[k], at, pressure, temperature);
+      continue;
+    }
     rho[k] = substances_[k].densityAt(pressure, temperature, rho[k]);
     sums.add(masses[k], rho[k], substances_[k], temperature);
   }
@@ -151,16 +169,17 @@ double steppedPressure(double pressure, double change, double softness) {
 
 Blend BlendLaws::at(const double* masses, double energy) const {
   Blend blend;
-  double capacity = 0;
+  double capacity = 0, whole = energy;  // the energy above 0 K
   for (std::size_t k = 0; k < substances_.size(); ++k) {
     if (std::isnan(masses[k])) return blend;
     capacity += std::max(masses[k], 0.0) * substances_[k].specificHeat;
+    whole += std::max(masses[k], 0.0) * substances_[k].heatBelow();
   }
-  if (!(energy > 0 && energy <= std::numeric_limits<double>::max()) || !(capacity > 0)) return blend;
+  if (!(whole > 0 && whole <= std::numeric_limits<double>::max()) || !(capacity > 0)) return blend;
   std::array<double, kMostGases> rho{};
   for (std::size_t k = 0; k < substances_.size(); ++k)
     rho[k] = substances_[k].law ? substances_[k].law->cold().density : 1;
-  double pressure = 0.1 * energy, temperature = energy / capacity;
+  double pressure = 0.1 * whole, temperature = whole / capacity;
   bool isDone = false;
   for (int k = 0; k < 100 && !isDone; ++k) {
     const Sums s = sumsAt(masses, pressure, temperature, rho);
@@ -185,11 +204,14 @@ Blend BlendLaws::at(const double* masses, double energy) const {
   blend.pressure = pressure;
   blend.temperature = temperature;
   // A small stiffness remains in a liquid that does not fill its cell, so that the speeds of waves stay distinct.
-  blend.modulus = std::max(sums.modulus(temperature), 1e-12 * energy);
+  blend.modulus = std::max(sums.modulus(temperature), 1e-12 * whole);
   constexpr double tolerance = 1e-8;
   blend.isPossible = temperature > 0 && blend.modulus > 0 && std::isfinite(blend.modulus) &&
-                     std::abs(sums.energy - energy) <= tolerance * energy && (sums.volume < 1 + tolerance) &&
+                     std::abs(sums.energy - energy) <= tolerance * whole && (sums.volume < 1 + tolerance) &&
                      (pressure <= 2 * leastPressure || sums.volume > 1 - tolerance);
+  for (std::size_t k = 0; k < substances_.size(); ++k)
+    if (const Water* water = substances_[k].water; water && blend.shares[k] > leastShareOfWater)
+      blend.isPossible &= water->isValid(pressure, temperature);
   return blend;
 }
 

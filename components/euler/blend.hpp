@@ -30,8 +30,8 @@ struct Blend {
 /// The laws of gases that share cells.
 class BlendLaws {
  public:
-  /// `gases` are ideal or stiffened gases, or have a law of type CurvedGas or, without attraction, RealGas. All have a
-  /// specific heat.
+  /// `gases` are ideal or stiffened gases, or have a law of type CurvedGas, Water or, without attraction, RealGas. All
+  /// have a specific heat.
   explicit BlendLaws(const std::vector<Gas>& gases);
 
   std::size_t size() const { return substances_.size(); }
@@ -58,17 +58,21 @@ class BlendLaws {
   }
 
  private:
-  /// A gas with p = p_cold(rho) + h(rho) c_v T and e = E_cold(rho) / rho + c_v T, where h = Gamma rho / (1 - b rho).
+  /// A gas with p = p_cold(rho) + h(rho) c_v T and e = E_cold(rho) / rho + c_v T, where h = Gamma rho / (1 - b rho); or
+  /// water.
   struct Substance {
     double specificHeat = 0;  ///< c_v [J/(kg K)]
     double gruneisen = 0;     ///< Gamma
     double pInfinity = 0;     ///< p_inf [Pa] of a stiffened gas
     double covolume = 0;      ///< b [m³/kg] of hard spheres
     const CurvedGas* law = nullptr;
+    const Water* water = nullptr;
 
     bool isLinear() const { return law && law->cold().kind == ColdCurve::Kind::linear; }
     double coldPressure(double rho) const { return law ? law->cold().pressure(rho) : -pInfinity; }
     double coldEnergy(double rho) const { return law ? law->cold().energy(rho) / rho : pInfinity / rho; }
+    /// The energy [J/kg] that it has lost at 0 K where its energy is 0.
+    double heatBelow() const { return water ? water->heatBelow() : 0; }
     /// The density [kg/m³] at a given pressure [Pa] and temperature [K]; Newton's method begins at `guess`.
     double densityAt(double pressure, double temperature, double guess) const;
   };

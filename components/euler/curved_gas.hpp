@@ -239,6 +239,35 @@ class Water {
   }
   static double shockSlope() { return 2; }
 
+  /// c_0 T_0 [J/kg]: the energy is measured from T_0, that of other gases from 0 K.
+  double heatBelow() const { return n_.heat * n_.temperature; }
+  /// Water at a pressure and a temperature, and its derivatives.
+  struct Point {
+    double volume, energy;             ///< per mass [m³/kg, J/kg]
+    double ofPressure, ofTemperature;  ///< derivatives of the volume
+    double heatOfPressure;             ///< c_p [J/(kg K)]
+  };
+  /// For solvers, which may pass through impossible states: at pressures that give more than the greatest x, the volume
+  /// falls exponentially, and where even p = 0 does, the derivatives are those of the greatest x.
+  Point at(double pressure, double t) const {
+    const double warmer = t - n_.temperature, room = (greatestX_ - warmer) / n_.a;
+    const double p = room > 0 ? std::min(pressure, room) : pressure, x = n_.a * p + warmer;
+    const double valid = std::min(x, greatestX_);
+    Point point{.volume = n_.volume * (1 - n_.stiffness * p + n_.bend * x * x),
+                .energy = energyPerMass(p, t),
+                .ofPressure = n_.volume * (2 * n_.bend * n_.a * valid - n_.stiffness),
+                .ofTemperature = expansion(valid),
+                .heatOfPressure = std::max(heatOfPressure(p, t), 0.1 * n_.heat)};
+    if (pressure > p) {
+      const double falls = std::exp(point.ofPressure * (pressure - p) / point.volume);
+      point.volume *= falls;
+      point.ofPressure *= falls;
+    }
+    return point;
+  }
+  /// Whether the law is valid up to the greatest x.
+  bool isValid(double p, double t) const { return n_.a * p + t - n_.temperature <= greatestX_; }
+
  private:
   double xSquared(double rho, double p) const { return (1 / (rho * n_.volume) - 1 + n_.stiffness * p) / n_.bend; }
   double xAt(double rho, double p) const { return std::sqrt(xSquared(rho, p)); }

@@ -35,6 +35,7 @@ Gas spheres() {
           .law = std::make_shared<const Gas::Law>(
               RealGas({.gasConstant = 0.3 * 716, .specificHeat = 716, .covolume = 7.84e-4}))};
 }
+Gas water() { return {.specificHeat = 4145, .law = std::make_shared<const Gas::Law>(Water({}))}; }
 
 using Masses = std::array<double, kMostGases>;
 
@@ -71,14 +72,59 @@ TEST(Blend, FindsPressureAndTemperature) {
         }
 }
 
+TEST(Blend, OfWaterFindsPressureAndTemperature) {
+  const std::vector<Gas> gases{water(), air(), spheres()};
+  for (const double pressure : {2e4, 101325.0, 2e6, 1e8})
+    for (const double temperature : {278.0, 300.0, 330.0})
+      for (const std::vector<double>& shares : std::vector<std::vector<double>>{
+               {1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 0}, {0.2, 0.3, 0.5}, {1 - 1e-6, 1e-6, 0}, {1e-9, 1 - 1e-9, 0}}) {
+        Masses masses{};
+        const double energy = energyOf(gases, shares, pressure, temperature, masses);
+        const Blend blend = BlendLaws(gases).at(masses.data(), energy);
+        ASSERT_TRUE(blend.isPossible) << pressure << ' ' << temperature << ' ' << shares[0];
+        EXPECT_NEAR(blend.temperature / temperature, 1, 1e-9) << pressure;
+        EXPECT_NEAR(blend.pressure, pressure, 1e-9 * pressure + 1e-4) << temperature;  // round-off of its stiffness
+        for (std::size_t k = 0; k < gases.size(); ++k) EXPECT_NEAR(blend.shares[k], shares[k], 1e-9);
+      }
+}
+
+TEST(Blend, OfWaterAloneIsItsLaw) {
+  const BlendLaws laws({water(), air()});
+  const Masses masses{998, 0, 0};
+  const Gas gas = water();
+  const double energy = gas.energyOf(998, gas.lastAt(998, 320));
+  const Blend blend = laws.at(masses.data(), energy);
+  ASSERT_TRUE(blend.isPossible);
+  EXPECT_NEAR(blend.pressure / gas.pressure(998, energy), 1, 1e-9);
+  EXPECT_NEAR(blend.modulus / (998 * gas.soundSpeedSquared(998, gas.last(998, energy))), 1, 1e-9);
+}
+
+TEST(Blend, OfWaterAndAirMayBeWhereWaterAloneHasNoRange) {
+  const BlendLaws laws({water(), air()});
+  const std::vector<Gas> gases{water(), air()};
+  Masses masses{};
+  const double cold = energyOf(gases, {0, 1}, 101325, 250, masses);
+  masses[0] = 1e-3;  // below the temperature of greatest density
+  const Blend below = laws.at(masses.data(), cold + masses[0] * 4205.7 * (250 - 277));
+  EXPECT_TRUE(below.isPossible);
+  EXPECT_NEAR(below.temperature, 250, 0.5);
+  const double hot = energyOf(gases, {0, 1}, 101325, 900, masses);
+  masses[0] = 1e-5;  // a trace
+  EXPECT_TRUE(laws.at(masses.data(), hot).isPossible);
+  masses[0] = 100;
+  EXPECT_FALSE(laws.at(masses.data(), 100 * 4205.7 * 400).isPossible) << "water at 677 K";
+}
+
 class BlendOf : public testing::TestWithParam<Gas> {};
-INSTANTIATE_TEST_SUITE_P(Products, BlendOf, testing::Values(jwl(), spheres()));
+INSTANTIATE_TEST_SUITE_P(Products, BlendOf, testing::Values(jwl(), spheres(), water()));
 
 TEST_P(BlendOf, HasTheSoundSpeedOfItsIsentrope) {
   const std::vector<Gas> gases{explosive(), GetParam(), air()};
   const BlendLaws laws(gases);
   Masses masses{};
-  const double energy = energyOf(gases, {0.4, 0.4, 0.2}, 3e8, 900, masses), step = 1e-5;
+  const bool isWater = std::holds_alternative<Water>(*GetParam().law);
+  const double pressure = isWater ? 3e6 : 3e8, temperature = isWater ? 300 : 900, step = isWater ? 1e-6 : 1e-5;
+  const double energy = energyOf(gases, {0.4, 0.4, 0.2}, pressure, temperature, masses);
   const Blend blend = laws.at(masses.data(), energy);
   // Compression by a factor 1 + s changes e per volume by (e + p) s.
   const auto after = [&](double s) {

@@ -25,6 +25,8 @@ BESIDE = changed(CONTACT, ("<heat>[0, 0, 0]", "<heat>[50, 20, 1e15]"), ("<temper
                                            "<thermal_conductivity>0</thermal_conductivity>"),
                  ("<res>[4,1,1]</res>", "<res>[4,1,1]</res><temperature>5</temperature>"))
 BESIDE = BESIDE.replace('<EOS type="ideal_gas"/>', JWL, 1)
+WATER = ('<EOS type="Thomsen_Hartka_water"><a>2e-7</a><b>2.6</b><co>4205.7</co><ko>5e-10</ko><To>277</To><L>8e-6</L>'
+         "<vo>1.00008e-3</vo></EOS>")
 MURNAGHAN = re.search(r'<EOS type="Murnaghan">.*?</EOS>', DETONATION.read_text(), re.S).group()
 
 
@@ -33,9 +35,14 @@ def measuring(text, variable, value):
     return changed(text, ("</Uintah_specification>", module + "</Uintah_specification>"))
 
 
+# Water at 300 K and 1 atm in place of the explosive.
+DRIFTING_WATER = changed(DRIFT.read_text(), (MURNAGHAN, WATER), ("<specific_heat>1500<", "<specific_heat>4145<"),
+                         ("<density>1160<", "<density>995.7490146145051<"))
+
+
 class Contacts(RefusedSceneTest):
-    def greatest(self, variable, value, *sets):
-        report = run(self.scene(measuring(DRIFT.read_text(), variable, value)), "Time/maxTime=0.001", *sets).report
+    def greatest(self, variable, value, *sets, text=DRIFT.read_text()):
+        report = run(self.scene(measuring(text, variable, value)), "Time/maxTime=0.001", *sets).report
         return next(iter(report["errors"].values()))["cell"]["max"]
 
     def test_of_an_explosive_and_air_stay_quiet(self):
@@ -45,10 +52,17 @@ class Contacts(RefusedSceneTest):
             self.assertLess(self.greatest("<label>c.velocity</label><component>x</component>", 100, *sets), 1e-10)
             self.assertLess(self.greatest("<label>c.temperature</label>", 300, *sets), 1e-8)
 
+    def test_of_water_and_air_stay_quiet(self):
+        for order in ("FirstOrder", "SecondOrder"):
+            sets = (f"CFD/ICE/advection/@type={order}",)
+            self.assertLess(self.greatest("<label>c.pressure</label>", 101325, *sets, text=DRIFTING_WATER), 1e-5)
+            self.assertLess(self.greatest("<label>c.temperature</label>", 300, *sets, text=DRIFTING_WATER), 1e-9)
+
     def test_keep_mass_momentum_and_energy(self):
-        drift = run(DRIFT, "Time/maxTime=0.001").report["drift"]
-        for name in ("mass", "momentum", "energy"):
-            self.assertLess(abs(drift[name]), 1e-13, name)
+        for scene in (DRIFT, self.scene(DRIFTING_WATER)):
+            drift = run(scene, "Time/maxTime=0.001").report["drift"]
+            for name in ("mass", "momentum", "energy"):
+                self.assertLess(abs(drift[name]), 1e-13, name)
 
 
 class Heat(RefusedSceneTest):

@@ -23,10 +23,10 @@ constexpr std::string_view fractionLabel = "scalar-f";
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
   const auto kind = material.state.kind;
-  if (kind == EquationOfState::Kind::water || kind == EquationOfState::Kind::tst)
+  if (kind == EquationOfState::Kind::tst)
     diagnostics.error(*element.child("EOS"),
                       "is not available with a second gas: several gases must be of type ideal_gas, stiffened_gas, "
-                      "JWL, JWLC, Murnaghan, Gruneisen or hard_sphere_gas");
+                      "JWL, JWLC, Murnaghan, Gruneisen, Thomsen_Hartka_water or hard_sphere_gas");
   if (material.air)
     diagnostics.error(*element.child("SpecificHeatModel"),
                       "is not available with a second gas: remove it, or keep one gas");
