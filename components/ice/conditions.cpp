@@ -126,14 +126,10 @@ std::vector<BoundaryCondition> readCondition(const Element& sides, const Element
 
 }  // namespace
 
-simulation::ConditionWords gasConditionWords(bool mayDependOnTime) {
-  simulation::ConditionWords words{
-      .vars = {wavesTag, slipVar}, .sections = {{wavesTag, &wavesSchema(), false}}, .read = readCondition};
-  if (mayDependOnTime) {
-    words.vars.push_back(sineVar);
-    words.sections.push_back({sineTag, &sineSchema(), false});
-  }
-  return words;
+simulation::ConditionWords gasConditionWords() {
+  return {.vars = {wavesTag, slipVar, sineVar},
+          .sections = {{wavesTag, &wavesSchema(), false}, {sineTag, &sineSchema(), false}},
+          .read = readCondition};
 }
 
 }  // namespace tushar::ice

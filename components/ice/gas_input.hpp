@@ -94,8 +94,8 @@ std::vector<simulation::SectionForm> gasForms();
 std::vector<std::string> gasSections();
 /// The variables for which boundary conditions may be given.
 std::vector<grid::BoundaryVariable> gasBoundaryLabels();
-/// The types of boundary conditions; oscillating ones only if conditions may depend on time.
-simulation::ConditionWords gasConditionWords(bool mayDependOnTime);
+/// The types of boundary conditions of a gas.
+simulation::ConditionWords gasConditionWords();
 /// Writes the manual of the sections in gasForms.
 void describeGas(std::ostream& out);
 

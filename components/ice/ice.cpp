@@ -189,7 +189,7 @@ simulation::ComponentKind kind() {
   kind.amrSections = {"ICE"};
   kind.cellsOfBlocks = cellsOfBlocks;
   kind.boundaryLabels = gasBoundaryLabels();
-  kind.conditionWords = gasConditionWords(true);
+  kind.conditionWords = gasConditionWords();
   kind.describe = describeGas;
   kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{gasForms()}; };
   kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) -> simulation::MakeComponent {

@@ -245,6 +245,22 @@ void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagno
   }
 }
 
+/// Refuses velocities of bodies that oscillate at a side.
+void refuseOscillatingBodies(const Element& root, int solids, Diagnostics& diagnostics) {
+  const auto grid = root.child("Grid");
+  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  for (const Element& face : group ? group->children("Face") : std::vector<Element>{})
+    for (const Element& condition : face.children("BCType")) {
+      const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
+      if (condition.attribute("var") != "Sine" || condition.attribute("label") != euler::boundary::velocity.name)
+        continue;
+      if (material < solids)
+        diagnostics.error(condition, fmt::format("var Sine is not available for the Velocity of bodies; give the gas "
+                                                 "alone a Velocity, with id {}",
+                                                 solids));
+    }
+}
+
 template <int D>
 std::unique_ptr<Component> makeWithGas(const Level& level, const Settings& settings,
                                        const mpm::solid::MakeSurrounded& makeSolids) {
@@ -301,6 +317,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   settings.burning = burningOf(scene, areRigid, root, diagnostics);
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);
+  refuseOscillatingBodies(root, solids, diagnostics);
   noteContacts(root, diagnostics);
   if (!settings.thinWalls) noteThinBodies(bodies.materials, root, diagnostics);
   if (diagnostics.size() > before) return {};
@@ -327,7 +344,7 @@ simulation::ComponentKind kind(bool areRigid) {
   kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
   for (const char* name : ice::scalarsAtSides) kind.boundaryLabels.push_back(BoundaryLabel<double>(name));
-  kind.conditionWords = ice::gasConditionWords(false);
+  kind.conditionWords = ice::gasConditionWords();
   kind.takesPartsOfSides = true;
   kind.describe = [](std::ostream& out) {
     ice::describeGas(out);

@@ -124,9 +124,9 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
   tasks.perPatch("mpmice::takeGasAlone", takeGasAlone<D>, with(settings_), gas, all<NewGasAlone<D>>());
   tasks.acrossMaterials("mpmice::findWallSpeeds", findWallSpeeds<D>, materials, with(settings_), withoutMaterial(gas),
                         all<BodyAtFaces<D>>(1, materials.size() > 1), withoutMaterial(all<NewWallSpeeds<D>>()));
-  tasks.perRank("mpmice::solvePressure", solvePressureBeside<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
-                all<GasAlone<D>>(2), gas, all<WallSpeeds<D>>(), requiresOld(c::pressureAtEnd),
-                all<ice::PressureViews>(), totals<ice::SolveTotals>());
+  tasks.perRank("mpmice::solvePressure", solvePressureBeside<D>, togetherOnRanks(), with(settings_), startTime(),
+                requiresOld(delT), all<GasAtWalls<D>>(), gas, requiresOld(c::pressureAtEnd), all<ice::PressureViews>(),
+                totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
                         withoutMaterial(gas), all<BodyAtFaces<D>>(1, materials.size() > 1),
                         withoutMaterial(requiresNew(c::pressureAtEnd)), withoutMaterial(all<WallPressures<D>>()));
@@ -152,23 +152,21 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   scheduleBoxes(tasks, materials);
   const bool keepsMasses = !scalars_.empty();
   if (settings_.implicit)
-    tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_),
-                          requiresOld(delT), withoutMaterial(all<GasInStep<D>>()),
-                          withoutMaterial(all<BodiesInStep<D>>(isViscous())),
-                          all<BodyAtFaces<D>>(2, materials.size() > 1),
-                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size(), keepsMasses)),
-                          withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
+    tasks.acrossMaterials(
+        "mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_), startTime(), requiresOld(delT),
+        withoutMaterial(all<GasInStep<D>>()), withoutMaterial(all<BodiesInStep<D>>(isViscous())),
+        all<BodyAtFaces<D>>(2, materials.size() > 1),
+        withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
   else
     tasks.acrossMaterials(
         "mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials, with(settings_),
-        requiresOld(delT), withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
+        startTime(), requiresOld(delT), withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
         withoutMaterial(all<BodiesInStep<D>>(isViscous())), all<BodyAtFaces<D>>(2, materials.size() > 1),
-        withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size(), keepsMasses)),
-        withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
+        withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
   carryScalars(tasks);
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::addDiffusion", settings_.diffusion.varies() ? addVaryingDiffusion<D> : addDiffusion<D>,
-                   with(settings_), gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
+                   with(settings_), gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), startTime(), requiresOld(delT),
                    requiresOld(total::diffusivityAtStart), modifies(c::unsharedMomentum<D>),
                    modifies(c::unsharedEnergy), all<RimsOfDiffusion<D>>());
   if (conductsToBodies()) scheduleConduction(tasks, materials);
@@ -280,7 +278,7 @@ template <int D>
 void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (settings_.diffusion.acts() && settings_.diffusion.varies())
     tasks.perPatch("mpmice::limitDiffusion", limitVaryingDiffusion<D>, with(settings_),
-                   gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), with(soundSpeedKnob),
+                   gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), with(soundSpeedKnob), startTime(),
                    requiresOld(total::diffusivityAtStart), computes(delT));
 }
 

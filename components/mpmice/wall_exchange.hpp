@@ -40,12 +40,13 @@ inline constexpr double roundOffOfSweeps = 1e-15;
 template <int D>
 class WallExchange {
  public:
+  /// `time` is the start of the step [s], for conditions that vary in time.
   WallExchange(const Level& level, const Settings& settings, const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
-               const typename BodiesAtNodes<D>::Records& records, double dt)
+               const typename BodiesAtNodes<D>::Records& records, double time, double dt)
       : level_(level),
         settings_(settings),
         gas_(settings.gas.gas),
-        rules_(euler::ghostRulesOf<D>(level, settings.gas.gas, settings.gases)),
+        rules_(euler::ghostRulesOf<D>(level, settings.gas.gas, settings.gases, time)),
         cells_(cells),
         space_(level, settings, cells),
         step_(bodies),

@@ -30,7 +30,7 @@ struct Vacuum {
     const GasInCells<1> cells = gas.gas();
     const BodiesInStep<1> step{{below.seen(), below.seen()}, newFree.seen(), swept.seen(), sweptBy.seen()};
     const typename BodiesAtNodes<1>::Records bodies{{records.seenNodes()}};
-    const WallExchange<1> exchange(level, settings, cells, step, bodies, 0.01);
+    const WallExchange<1> exchange(level, settings, cells, step, bodies, 0, 0.01);
     exchange.addTo({cell}, {{density.cells(), momentum.cells(), energy.cells()}, {}, {}}, {});
     return density.values[cell];
   }

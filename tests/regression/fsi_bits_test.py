@@ -77,12 +77,17 @@ TUBE = changed(PLUG, ("[2,1,1]</upper>", "[3,1,1]</upper>"), ("[0.95,0,0]", "[2.
 STATE = "".join(f'<save label="c.{name}"/>' for name in ("density", "momentum", "totalEnergy"))
 HOT = """<geom_object><cylinder label="hot"><bottom>[0.6,0.3,-1]</bottom><top>[0.6,0.3,1]</top><radius>0.2</radius>
 </cylinder><density>1.4</density><temperature>4</temperature></geom_object></material></ICE>"""
+# Gas is pushed and pulled through the side x-.
+SWING = """<SINE_BC><omega>20</omega><A>0.3</A><reference_pressure>1</reference_pressure></SINE_BC>
+<Face side="x-"><BCType id="0" label="Pressure" var="Sine"/></Face>"""
+SWINGING = changed(TUBE, ('<Face side="x-"><BCType id="all" label="Symmetric" var="symmetry"/></Face>', SWING))
 
 
 class FarBodies(SceneTest):
     """A gas that a body has not yet influenced is bitwise equal to a gas alone."""
 
-    def assert_bits_of_ice(self, text, *sets):
+    def with_and_without(self, text, sets):
+        """The columns of a scene, and of its gas alone."""
         text = re.sub(r'    <save label.*<save label.*?/>\n', STATE, text, flags=re.DOTALL)
         text = re.sub(r'<advection type="\w+"/>', lambda found: found[0] + fsi.SUM, text)
         alone = text.replace('type="mpmice"', 'type="ice"')
@@ -90,7 +95,10 @@ class FarBodies(SceneTest):
                         r"    <exchange_properties>.*?</exchange_properties>\n"):
             alone, count = re.subn(section, "", alone, flags=re.DOTALL)
             self.assertEqual(count, 1, section)
-        with_body, without = self.columns_of(text, sets), self.columns_of(alone, sets)
+        return self.columns_of(text, sets), self.columns_of(alone, sets)
+
+    def assert_bits_of_ice(self, text, *sets):
+        with_body, without = self.with_and_without(text, sets)
         far = [k for k, x in enumerate(without["x [m]"]) if x < 2]  # round-off of the gas at the body goes with 1 m/s
         self.assertGreater(len(far), 20)
         self.assertEqual(set(with_body), set(without))
@@ -116,8 +124,38 @@ class FarBodies(SceneTest):
         self.assert_bits_of_ice(text.replace("<thermal_conductivity>0", "<thermal_conductivity>2e-3").replace(
             "</material>\n    </ICE>", HOT), *plane)
 
+    def test_leave_the_bits_of_gas_at_an_oscillating_side(self):
+        self.assert_bits_of_ice(SWINGING, "Time/maxTime=0.5")
+        viscous = changed(SWINGING, ("<dynamic_viscosity>0", "<dynamic_viscosity>1e-3"),
+                          ("<thermal_conductivity>0", "<thermal_conductivity>2e-3"))
+        self.assert_bits_of_ice(viscous, "Time/max_Timesteps=12")
+
+    def test_leave_gas_at_an_oscillating_side_as_it_is_by_implicit_steps(self):
+        solver = '<ICE><ImplicitSolver><Solver><tolerance>1e-10</tolerance></Solver></ImplicitSolver>'
+        pair = self.with_and_without(changed(SWINGING, ("<ICE><adv", solver + "<adv")),
+                                     ("Time/maxTime=0.3", "Time/delt_max=1e-3"))
+        near, alone = (one["c.totalEnergy [J/m^3]"][:60] for one in pair)  # x < .9
+        self.assertLess(max(abs(a - b) for a, b in zip(near, alone)), 1e-6)
+        self.assertGreater(max(alone) - min(alone), .5)
+
     def test_leave_the_bits_of_constant_cells(self):
         self.assert_bits_of_ice(TUBE.replace("SecondOrder", "FirstOrder"), "Time/maxTime=0.4")
+
+
+class OscillatingSides(FolderTest, SceneTest):
+    def test_continue_after_a_restart(self):
+        scene, steps = self.scene(SWINGING), 40
+        whole = run(scene, f"Time/max_Timesteps={steps}").report["fingerprint"]
+        self.assertEqual(self.fingerprint_of_two_parts(scene, steps), whole)
+        resting = self.scene(SWINGING.replace("<A>0.3</A>", "<A>1e-9</A>"))
+        self.assertNotEqual(run(resting, f"Time/max_Timesteps={steps}").report["fingerprint"], whole)
+
+    def test_do_not_move_bodies(self):
+        velocity = SWING.replace('id="0" label="Pressure"', 'id="all" label="Velocity"').replace(
+            "</SINE_BC>", "<reference_velocity>[1,0,0]</reference_velocity></SINE_BC>")
+        done = run(self.scene(SWINGING.replace(SWING, velocity)))
+        self.assertIn("var Sine is not available for the Velocity of bodies; give the gas alone a Velocity, with id 1",
+                      done.err)
 
 
 if __name__ == "__main__":

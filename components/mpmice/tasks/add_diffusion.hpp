@@ -135,13 +135,13 @@ struct RimsOfDiffusion : euler::DiffusionRims<D> {
 /// state at the start of the step. The fluxes pass through the open fractions of faces. Friction at walls is computed
 /// together with the pressure on walls. Away from bodies and thin gas, the result is bitwise equal to that of `euler`.
 template <int D>
-void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
+void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double time, double dt,
                   double diffusivityAtStart, CellView<Vec<D>> momentum, CellView<double> totalEnergy,
                   const RimsOfDiffusion<D>& rims) {
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
   const euler::Diffusion& uniform = settings.diffusion.alone.uniform;
-  const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, gas);
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, gas, time);
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
   const std::size_t room = euler::largestBlock<D>(patch.cells()).grown(1, D).size();
   const BoundedDiffusion<D> diffusion(level, settings, cells, diffusivityAtStart);
@@ -186,11 +186,11 @@ auto diffusingGas(const Level& level, const Settings& settings, const GasInCells
 /// Adds the changes due to viscosity and conduction in a step, like addDiffusion, for varying coefficients or several
 /// gases. The flux through a face uses the means of the coefficients of the cells on both sides.
 template <int D>
-void addVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
-                         double diffusivityAtStart, CellView<Vec<D>> momentum, CellView<double> totalEnergy,
+void addVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double time,
+                         double dt, double diffusivityAtStart, CellView<Vec<D>> momentum, CellView<double> totalEnergy,
                          const RimsOfDiffusion<D>& rims) {
   const Level& level = patch.level();
-  const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, settings.gas.gas);
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, settings.gas.gas, time);
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
   euler::Diffuser<D> diffuser(level, patch.cells(), rules, settings.diffusion.alone.smagorinsky,
                               euler::Diffusivities::bounded);
@@ -243,8 +243,8 @@ void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCel
 /// limitDiffusion.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
-                           double soundSpeedKnob, double diffusivityAtStart, Minimum& dt) {
-  const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), settings.gas.gas);
+                           double soundSpeedKnob, double time, double diffusivityAtStart, Minimum& dt) {
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), settings.gas.gas, time);
   euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky,
                               euler::Diffusivities::bounded);
   const auto cellAt = diffusingGas<D>(patch.level(), settings, cells, diffusivityAtStart);

@@ -29,6 +29,18 @@ struct UnsharedGas {
   }
 };
 
+/// Views of what a step of the gas computes.
+template <int D>
+struct OutcomeOfStep {
+  UnsharedGas<D> fresh;
+  OfferedExchange<D> offered;
+
+  static OutcomeOfStep from(auto& take, std::size_t gases, bool keepsMasses) {
+    UnsharedGas<D> fresh = UnsharedGas<D>::from(take, gases, keepsMasses);
+    return {.fresh = std::move(fresh), .offered = OfferedExchange<D>::from(take)};
+  }
+};
+
 /// Computes rho, v, p of the gas in the cells of `w`. Cells without gas get an arbitrary gas at rest; it has no fluxes,
 /// because the faces of these cells are closed, or those of flowIntoVacuum.
 template <int D, class G>
@@ -228,18 +240,17 @@ void requireFinest(const Patch& patch, const NearBodies<D>& near) {
 /// and after the step, and gas follows moving walls. Adds the power of the gas on bodies [W] to `power`. K is the
 /// number of gases that share cells.
 template <int D, class Flux, class Shape, int K>
-void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
-                const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
-                const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
-                const OfferedExchange<D>& offered, Sum& power) {
+void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double time,
+                double dt, const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
+                const typename BodiesAtNodes<D>::Records& records, const OutcomeOfStep<D>& outcome, Sum& power) {
   const euler::Gas& gas = settings.gas.gas;
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
-  WallExchange<D> exchange(patch.level(), settings, cells, bodies, records, dt);
+  WallExchange<D> exchange(patch.level(), settings, cells, bodies, records, time, dt);
   exchange.measure(near);
   requireFinest<D>(patch, near);
-  offered.clear();
+  outcome.offered.clear();
   const auto advance = [&](const auto& law) {
-    return advanceWith<D, Flux, Shape>(law, patch, dt, cells, exchange, near, fresh, offered, power);
+    return advanceWith<D, Flux, Shape>(law, patch, dt, cells, exchange, near, outcome.fresh, outcome.offered, power);
   };
   bool fine = false;
   if constexpr (K > 1)
@@ -248,14 +259,14 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
     fine = advance(gas);
   else
     fine = advance(euler::lawOf<euler::StiffenedGas>(gas));
-  if (!fine && !areBlended(settings)) refuseFarGas<D>(patch, settings, near, cells, fresh.held);
+  if (!fine && !areBlended(settings)) refuseFarGas<D>(patch, settings, near, cells, outcome.fresh.held);
 }
 
 template <int D>
 using AdvanceGas = void (*)(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
-                            double dt, const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
-                            const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
-                            const OfferedExchange<D>& offered, Sum& power);
+                            double time, double dt, const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
+                            const typename BodiesAtNodes<D>::Records& records, const OutcomeOfStep<D>& outcome,
+                            Sum& power);
 
 /// The function that advances two or three gases, which is like advanceGas.
 template <int D>

@@ -45,13 +45,14 @@ double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& nea
 /// momentum and energy are conserved for any pressure.
 template <int D>
 void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
-                       double dt, const GasInStep<D>& before, const BodiesInStep<D>& bodies,
-                       const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
-                       const OfferedExchange<D>& offered, Sum& power) {
+                       double time, double dt, const GasInStep<D>& before, const BodiesInStep<D>& bodies,
+                       const typename BodiesAtNodes<D>::Records& records, const OutcomeOfStep<D>& outcome, Sum& power) {
+  const UnsharedGas<D>& fresh = outcome.fresh;
+  const OfferedExchange<D>& offered = outcome.offered;
   const Level& level = patch.level();
   const GasInCells<D>& cells = before.cells;
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
-  const WallExchange<D> exchange(level, settings, cells, bodies, records, dt);
+  const WallExchange<D> exchange(level, settings, cells, bodies, records, time, dt);
   const Vec<D> gravity = level.reduce<D>(settings.gravity);
   offered.clear();
   double most = 0;

@@ -194,15 +194,27 @@ numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, c
   return equation;
 }
 
+/// Views of the gas alone and of the walls that it meets.
+template <int D>
+struct GasAtWalls {
+  GasAlone<D> alone;
+  WallSpeeds<D> walls;
+
+  static GasAtWalls from(auto& take) {
+    GasAlone<D> alone = GasAlone<D>::from(take, 2);
+    return {.alone = std::move(alone), .walls = WallSpeeds<D>::from(take)};
+  }
+};
+
 /// Solves for the change of the pressure of the gas in the step [Pa], and computes the pressure at the end. Throws
 /// NumericalError if the solver gives up.
 template <int D>
 void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings,
-                         double dt, const std::vector<GasAlone<D>>& alone, const std::vector<GasInCells<D>>& cells,
-                         const std::vector<WallSpeeds<D>>& walls, const std::vector<CellView<const double>>& guess,
+                         double time, double dt, const std::vector<GasAtWalls<D>>& gas,
+                         const std::vector<GasInCells<D>>& cells, const std::vector<CellView<const double>>& guess,
                          const std::vector<ice::PressureViews>& fresh, const ice::SolveTotals& totals) {
   const Level& level = patches.front()->level();
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas.gas);
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas.gas, time);
   std::vector<ice::FaceFlow<D>> flows;
   std::vector<FreeSpace<D>> spaces;
   std::vector<NearBodies<D>> near;
@@ -211,7 +223,7 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
     flows
         .emplace_back(level, settings.gas, *settings.implicit, rules, patches[p]->cells(), dt,
                       flatAtBodies<D>(*patches[p], cells[p]))
-        .hold(patches[p]->cells(), alone[p].state);
+        .hold(patches[p]->cells(), gas[p].alone.state);
     spaces.emplace_back(level, settings, cells[p]);
   }
   ice::solveForChange<D>(
@@ -223,7 +235,7 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
       },
       [&](std::size_t p, const Index<D>& cell) {
         if (!near[p](cell)) return ice::pressureEquation<D>(level, flows[p], cell, dt);
-        return pressureEquationBeside<D>(flows[p], spaces[p], walls[p], cells[p].free[cell], cell, dt);
+        return pressureEquationBeside<D>(flows[p], spaces[p], gas[p].walls, cells[p].free[cell], cell, dt);
       },
       [&](std::size_t p, const Index<D>& cell) {
         return spaces[p].isEmpty(cell) ? 0.0 : ice::stiffPressureIn(flows[p], cell);
