@@ -71,8 +71,8 @@ class Heat(RefusedSceneTest):
         names = ("TotalMass-explosive", "TotalMass-air", "TotalEnergy")
         tags = ("<add_heat_matls>[0,1]</add_heat_matls><add_heat_coeff>[2e7,5e8]</add_heat_coeff>"
                 "<add_heat_t_start>0</add_heat_t_start><add_heat_t_final>1</add_heat_t_final>")
-        text = changed(DRIFT.read_text(), ('<ICE><advection type="SecondOrder"/>',
-                                           f'<ICE><advection type="SecondOrder"/><ADD_HEAT>{tags}</ADD_HEAT>'),
+        text = changed(DRIFT.read_text(), ('<advection type="SecondOrder"/>',
+                                           f'<advection type="SecondOrder"/><ADD_HEAT>{tags}</ADD_HEAT>'),
                        ('<save label="TotalIntEng"/>', "".join(f'<save label="{name}"/>' for name in names)))
         found = globals_of(self.scene(text), *names,
                            sets=("Time/maxTime=2e-4", "Grid/Level/Box/resolution=[16,16,1]"))
