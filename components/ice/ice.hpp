@@ -32,6 +32,7 @@ class Ice : public euler::Euler<D> {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   std::string advice() const override { return adviceForGas; }
+  bool mayRepeatStep() const override { return true; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
   std::vector<std::string> gasNames() const override { return {this->settings().name}; }
@@ -67,7 +68,6 @@ class ImplicitIce : public Ice<D> {
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
-  bool mayRepeatStep() const override { return true; }
   std::string whyOneLevel() const override { return pressureOnOneLevel; }
   std::vector<simulation::Reported> reported() const override {
     return {simulation::iterationsOfRun(total::iterations)};

@@ -184,6 +184,29 @@ TEST(GasLaws, WithoutACurveAreIdealGases) {
   for (std::size_t i = 0; i < ideal.density.size(); ++i) EXPECT_NEAR(byLaw.density[i], ideal.density[i], 1e-12);
 }
 
+template <int D>
+void expectIdealGasByLaw(int cells) {
+  GasBox<D> byLaw(closedBox(D, cells), roughGas<D>, {}, idealByLaw());
+  GasBox<D> ideal(closedBox(D, cells), roughGas<D>, {}, Gas{1.4, 0});
+  for (int step = 0; step < 4; ++step) {
+    const double dt = ideal.stableStep(0.5);
+    EXPECT_NEAR(byLaw.stableStep(0.5) / dt, 1, 1e-12);
+    byLaw.step(dt);
+    ideal.step(dt);
+  }
+  for (std::size_t i = 0; i < ideal.density.size(); ++i) {
+    EXPECT_NEAR(byLaw.density[i], ideal.density[i], 1e-12);
+    EXPECT_NEAR(byLaw.energy[i], ideal.energy[i], 1e-12);
+    EXPECT_LT((byLaw.momentum[i] - ideal.momentum[i]).norm(), 1e-12);
+  }
+}
+
+TEST(GasLaws, WithoutACurveAreIdealGasesInEachDimension) {
+  expectIdealGasByLaw<1>(60);
+  expectIdealGasByLaw<2>(20);
+  expectIdealGasByLaw<3>(12);
+}
+
 TEST(GasLaws, ConvergeToExactShockTubes) {
   struct Tube {
     const char* name;

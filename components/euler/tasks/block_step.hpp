@@ -43,11 +43,20 @@ struct Work {
     for (Rows<D, K>& values : upper) values.hold(box);
   }
 
+  /// Space for the changes of a row of cells in half a step.
+  typename Rows<D, K>::Pointers changesOf(int count) {
+    typename Rows<D, K>::Pointers pointers;
+    changes.resize(pointers.size() * static_cast<std::size_t>(count));
+    for (std::size_t k = 0; k < pointers.size(); ++k) pointers[k] = changes.data() + k * count;
+    return pointers;
+  }
+
   Rows<D, K> w;                          ///< primitive values of cells
   std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, for each axis; empty without slopes
   Rows<D, K> flux;                       ///< fluxes through lower faces along the first axis, or one axis at a time
   std::vector<Rows<D, K>> across;        ///< fluxes through lower faces along the other axes; empty for several gases
   std::vector<double> least;             ///< smallest density and p + p_inf at faces, for one row
+  std::vector<double> changes;           ///< see changesOf
 
  private:
   /// How many planes of face values are stored, and how many of values at upper faces along the last axis; 0: all.
@@ -92,9 +101,10 @@ void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, 
   });
 }
 
-/// Adds the half-step change of a row due to one axis, and sets the row's limited values at the faces.
+/// Adds the half-step change of a row due to one axis to `change`, and sets the row's limited values at the faces.
 template <int D, class Limited, int Axis, class G>
-void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D, kGases<G>>& work) {
+void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D, kGases<G>>& work,
+                 const Pointers<D, kGases<G>>& change) {
   const auto next = Index<D>::unit(Axis);
   const auto w = work.w.at(first), below = work.w.at(first - next), above = work.w.at(first + next);
   const auto lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
@@ -109,7 +119,7 @@ void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, W
       closeRow<D, K>(count, upper);
     }
   }
-  halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
+  halfStepRow<D, Axis>(gas, lower, upper, ratio, count, change);
 }
 
 /// Calls `visit(first, count)` for the cells of a box: in long stretches of memory if `Long`, otherwise row by row. For
@@ -121,8 +131,8 @@ void forEachPart(const Box& box, const Box& held, Visit&& visit) {
   forEachRow<D>(box, std::forward<Visit>(visit));
 }
 
-/// Computes the values at the faces of the cells of `box`, half a step later. It uses the rows of fluxes for
-/// intermediate values.
+/// Computes the values at the faces of the cells of `box`, half a step later. It leaves the fluxes as they are: in
+/// columns, those of the plane below have not been added yet.
 template <int D, class G>
 void predict(const G&, const Level&, const Box&, double, Work<D, kGases<G>>&, Constant) {}
 template <int D, class Limited>
@@ -146,10 +156,10 @@ void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D
   constexpr int gases = kGases<G>;
   forEachPart<D, takesAnyStates<G>>(box, work.w.box(), [&](const Index<D>& first, int count) {
     const auto ratio = [&](int d) { return 0.5 * dt / level.spacing(d); };
-    reconstruct<D, Limited, 0>(gas, first, count, ratio(0), work);
-    if constexpr (D > 1) reconstruct<D, Limited, 1>(gas, first, count, ratio(1), work);
-    if constexpr (D > 2) reconstruct<D, Limited, 2>(gas, first, count, ratio(2), work);
-    const auto change = work.flux.at(first);
+    const auto change = work.changesOf(count);
+    reconstruct<D, Limited, 0>(gas, first, count, ratio(0), work, change);
+    if constexpr (D > 1) reconstruct<D, Limited, 1>(gas, first, count, ratio(1), work, change);
+    if constexpr (D > 2) reconstruct<D, Limited, 2>(gas, first, count, ratio(2), work, change);
     work.least.assign(count, 1.0);
     for (std::size_t d = 0; d < D; ++d)
       for (Rows<D, gases>* values : {&work.lower[d], &work.upper[d]})

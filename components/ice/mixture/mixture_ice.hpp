@@ -24,6 +24,7 @@ class MixtureIce : public Component, public reference::GasSolution {
   void scheduleRefine(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   std::string advice() const override { return adviceForGas; }
+  bool mayRepeatStep() const override { return true; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
   std::vector<simulation::Criterion> criteria() const override { return euler::criteria<D>(); }
@@ -74,7 +75,6 @@ class ImplicitMixtureIce : public MixtureIce<D> {
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
-  bool mayRepeatStep() const override { return true; }
   std::string whyOneLevel() const override { return pressureOnOneLevel; }
   std::vector<simulation::Reported> reported() const override {
     return {simulation::iterationsOfRun(total::iterations)};
