@@ -7,8 +7,15 @@ namespace tushar::mpmice {
 /// The pressure behind the shock that a moving wall drives into a gas of any law, where the velocity jumps by
 /// `closing`: e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends only on the
 /// density, the second equation suffices. Solved by bisection in the density, to round-off.
+/// Weak shocks, in which the volumes differ too little for that, have the pressure of an ideal gas with this speed of
+/// sound: the error is of the order of rho closing², below 1e-12 rho c².
 inline double shockPressure(const euler::Gas& gas, double density, double last, double closing) {
   const double before = gas.pressureOf(density, last), volume = 1 / density;
+  const double c2 = gas.soundSpeedSquared(density, last);
+  if (closing * closing < 1e-12 * c2) {
+    const double b = 0.5 * gas.shockSlope() * closing;
+    return before + density * closing * (b + std::sqrt(b * b + c2));
+  }
   const double energy = gas.energyOf(density, last) * volume;
   // Behind the shock p = p_0 + closing² / (v_0 - v): solves for the density.
   const auto behind = [&](double rho) { return before + closing * closing / (volume - 1 / rho); };

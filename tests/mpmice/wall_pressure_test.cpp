@@ -71,6 +71,15 @@ TEST(WallPressure, OfAGasWithALawOfItsOwnIsThatOfTheGasItIs) {
   EXPECT_EQ(wallPressure(byLaw, density, pressure, -6), 0);
 }
 
+TEST(WallPressure, OfAGasWithALawOfItsOwnIsRightHoweverSlowTheWallIs) {
+  euler::Gas byLaw = air;
+  byLaw.law = std::make_shared<const euler::Gas::Law>(euler::CurvedGas({.density = 1}, 0.4, 716));
+  for (int k = 0; k < 2000; ++k) {
+    const double rho = 0.5 + k / 1999.0, closing = std::pow(10, -20 + k % 17);
+    EXPECT_NEAR(wallPressure(byLaw, rho, 1, closing), wallPressure(air, rho, 1, closing), 1e-8 * closing + 1e-15);
+  }
+}
+
 TEST(WallPressure, OfAStiffLawIsThatOfSoundAtSlowWallsAndOfItsHugoniotAtFastOnes) {
   const euler::ColdCurve curve{.kind = euler::ColdCurve::Kind::murnaghan,
                                .density = 1160,
