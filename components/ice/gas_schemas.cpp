@@ -34,10 +34,11 @@ const Schema<StepSection>& stepSchema() {
               "velocity and the acceleration of the gas",
               input::between(0, 1))
           .ignored("knob_for_diffusion", "viscosity and conduction are explicit, and always limit the steps")
-          .choice(
-              "Scheme_for_delT_calc", &StepSection::limitsSum, {{"aggressive", false}, {"conservative", true}}, false,
-              "aggressive: <cfl> limits dt (|v| + c) / h along each axis, and the sum over axes is at most .8, or .5 "
-              "with bodies or an <ImplicitSolver>; conservative: <cfl> limits the sum");
+          .choice("Scheme_for_delT_calc", &StepSection::limitsSum, {{"aggressive", false}, {"conservative", true}},
+                  false,
+                  "aggressive: <cfl> limits dt (|v| + c) / h along each axis, and the sum over axes is at most .8 or "
+                  "<cfl>, or .5 "
+                  "with bodies or an <ImplicitSolver>; conservative: <cfl> limits the sum");
   return schema;
 }
 
