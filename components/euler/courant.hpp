@@ -28,6 +28,17 @@ class CrossingRate {
     const double fraction = ofSum_ * sum, one = ofAxis_ * greatest;
     return fraction > one ? fraction : one;
   }
+  /// Of the rates along(d) of all axes [1/s].
+  template <class Along>
+  double ofAxes(Along&& along) const {
+    double sum = 0, greatest = 0;
+    for (int d = 0; d < D; ++d) {
+      const double one = along(d);
+      sum += one;
+      greatest = std::max(greatest, one);
+    }
+    return (*this)(sum, greatest);
+  }
 
  private:
   double ofSum_ = 1, ofAxis_ = 0;

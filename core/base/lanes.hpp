@@ -154,23 +154,36 @@ template <int step = Lanes::count / 2>
   if constexpr (step > 1) transpose<step / 2>(rows);
 }
 
+/// Calls `visit(c)` for squares of Lanes::count columns, the first of which is c, that contain all columns of records
+/// of `numbers` numbers, or all but one or two. The last square overlaps the one before if more would be left.
+template <int numbers, class Visit>
+[[gnu::always_inline]] inline void forEachSquare(Visit&& visit) {
+  constexpr int left = numbers % Lanes::count;
+#pragma GCC unroll 8
+  for (int c = 0; c < numbers - left; c += Lanes::count) visit(c);
+  if constexpr (numbers > Lanes::count && left > 2) visit(numbers - Lanes::count);
+}
+/// The number of columns in these squares.
+template <int numbers>
+inline constexpr int columnsInSquares = (numbers > Lanes::count && numbers % Lanes::count > 2)
+                                            ? numbers
+                                            : numbers / Lanes::count* Lanes::count;
+
 /// Loads `numbers` consecutive numbers from the address at(k) for each lane k: lane k of element c of the result is
 /// at(k)[c].
 template <int numbers, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> columnsOf(At&& at) {
-  constexpr int inSquares = numbers / Lanes::count * Lanes::count;
   std::array<Lanes, numbers> columns;
-#pragma GCC unroll 8
-  for (int c = 0; c < inSquares; c += Lanes::count) {
+  forEachSquare<numbers>([&](int c) __attribute__((always_inline)) {
     LanesSquare rows;
 #pragma GCC unroll 8
     for (int k = 0; k < Lanes::count; ++k) rows[k] = Lanes::at(at(k) + c);
     transpose(rows);
 #pragma GCC unroll 8
     for (int k = 0; k < Lanes::count; ++k) columns[c + k] = rows[k];
-  }
+  });
 #pragma GCC unroll 8
-  for (int c = inSquares; c < numbers; ++c) columns[c] = Lanes::of([&](int k) { return at(k)[c]; });
+  for (int c = columnsInSquares<numbers>; c < numbers; ++c) columns[c] = Lanes::of([&](int k) { return at(k)[c]; });
   return columns;
 }
 
@@ -198,9 +211,7 @@ template <std::size_t numbers>
 /// The inverse of columnsOf for the first `count` lanes: at(k)[c] = columns[c] of lane k.
 template <std::size_t numbers, class At>
 [[gnu::always_inline]] inline void storeColumns(const std::array<Lanes, numbers>& columns, int count, At&& at) {
-  constexpr int inSquares = int(numbers) / Lanes::count * Lanes::count;
-#pragma GCC unroll 8
-  for (int c = 0; c < inSquares; c += Lanes::count) {
+  forEachSquare<int(numbers)>([&](int c) __attribute__((always_inline)) {
     LanesSquare rows;
 #pragma GCC unroll 8
     for (int k = 0; k < Lanes::count; ++k) rows[k] = columns[c + k];
@@ -208,9 +219,9 @@ template <std::size_t numbers, class At>
 #pragma GCC unroll 8
     for (int k = 0; k < Lanes::count; ++k)
       if (k < count) rows[k].copyTo(at(k) + c);
-  }
+  });
 #pragma GCC unroll 8
-  for (int c = inSquares; c < int(numbers); ++c)
+  for (int c = columnsInSquares<int(numbers)>; c < int(numbers); ++c)
 #pragma GCC unroll 8
     for (int k = 0; k < Lanes::count; ++k)
       if (k < count) at(k)[c] = columns[c][k];

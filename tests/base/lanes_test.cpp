@@ -38,6 +38,9 @@ TEST(Lanes, ColumnsOfRecordsComeBackWhereTheyWere) {
   expectColumnsThereAndBack<3>();
   expectColumnsThereAndBack<8>();
   expectColumnsThereAndBack<9>();
+  // The last square overlaps the one before, with registers of 8 numbers, or of 4.
+  expectColumnsThereAndBack<21>();
+  expectColumnsThereAndBack<7>();
 }
 
 template <int numbers>

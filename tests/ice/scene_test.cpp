@@ -50,6 +50,32 @@ TEST(IceScene, HasTheBitsOfEuler) {
             test::runScene("ups/euler/sod.ups", {"Euler/gas/gamma=1.5", "Euler/cfl=0.4", gamma}).fingerprint);
 }
 
+TEST(IceScene, TakesLongerStepsIfCflLimitsTheRateAlongEachAxis) {
+  const std::string scheme = "CFD/ICE/TimeStepControl/Scheme_for_delT_calc=", cells = "Grid/Level/Box/resolution=";
+  const auto steps = [&](const std::string& scene, const std::string& words) {
+    return test::runScene(scene, {scheme + words, cells + "[16,16,1]"}).steps;
+  };
+  // With cfl .4, the sum over two axes may be .8; in implicit steps .5.
+  for (const char* scene : {"ups/ice/pulse.ups", "ups/ice/three_gases.ups"})
+    EXPECT_NEAR(steps(scene, "conservative") / static_cast<double>(steps(scene, "aggressive")), 2, 0.05) << scene;
+  for (const char* scene : {"ups/ice/vortex_slow.ups", "ups/ice/slow_gases.ups"}) {
+    EXPECT_LT(steps(scene, "aggressive"), steps(scene, "conservative")) << scene;
+    EXPECT_GE(1.3 * steps(scene, "aggressive"), steps(scene, "conservative")) << scene;
+  }
+}
+
+TEST(IceScene, RepeatsAStepThatLeavesAnImpossibleState) {
+  // Cold gas that leaves the middle of the box at 20 m/s; its speed of sound is .12 m/s.
+  std::string scene = changedScene("ups/ice/pulse.ups", "<density>(1+0.001*exp(-100*(x*x+y*y)))^(1/1.4)</density>",
+                                   "<density>1</density><velocity>[20*x/(1e-9+sqrt(x*x+y*y)),"
+                                   "20*y/(1e-9+sqrt(x*x+y*y)),0]</velocity>");
+  scene = changedScene(scene, "<temperature>(1+0.001*exp(-100*(x*x+y*y)))^(0.4/1.4)<", "<temperature>0.01<");
+  const report::Report report = test::runScene(scene, {"CFD/ICE/TimeStepControl/Scheme_for_delT_calc=aggressive",
+                                                       "Grid/Level/Box/resolution=[16,16,1]", "Time/maxTime=0.05"});
+  EXPECT_GT(report.retries, 0);
+  EXPECT_NEAR(report.time, 0.05, 1e-12);
+}
+
 TEST(IceScene, KeepsTheEnergyOfSodsTube) { EXPECT_NEAR(driftOf(test::runScene(sod, {}), "energy"), 0, 1e-14); }
 
 TEST(IceScene, DampsAShearWave) {

@@ -139,13 +139,9 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, co
     const double rho = old.density[cell], p = mixed.pressure(rho, energy);
     if (gases.front().blend && !(mixed.softness > 0)) refuseBlend<D>(patch.level(), cell, massesIn(held, cell), energy);
     const double c = std::sqrt(mixed.soundSpeedSquared(rho, p));
-    double sum = 0, most = 0;
-    for (int d = 0; d < D; ++d) {
-      const double one = (std::abs(old.momentum[cell][d]) / rho + c) * patch.level().inverseSpacing(d);
-      sum += one;
-      most = std::max(most, one);
-    }
-    greatest = std::max(greatest, crossing(sum, most));
+    const double rate = crossing.ofAxes(
+        [&](int d) { return (std::abs(old.momentum[cell][d]) / rho + c) * patch.level().inverseSpacing(d); });
+    greatest = std::max(greatest, rate);
   });
   if (greatest > 0) dt.add(courant.number / greatest, "CFL");
 }

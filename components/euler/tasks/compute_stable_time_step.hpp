@@ -16,13 +16,10 @@ double greatestRate(const Patch& patch, const Gas& gas, const CrossingRate<D>& c
     forEach<D>(patch.cells(), [&](const Index<D>& cell) {
       const double rho = state.density[cell];
       const double c2 = law.soundSpeedSquared(rho, law.last(rho, internalEnergyIn<D, const double>(state, cell)));
-      double sum = 0, most = 0;
-      for (int d = 0; d < D; ++d) {
-        const double one = (std::abs(state.momentum[cell][d]) / rho + std::sqrt(c2)) * patch.level().inverseSpacing(d);
-        sum += one;
-        most = std::max(most, one);
-      }
-      greatest = std::max(greatest, crossing(sum, most));
+      const double rate = crossing.ofAxes([&](int d) {
+        return (std::abs(state.momentum[cell][d]) / rho + std::sqrt(c2)) * patch.level().inverseSpacing(d);
+      });
+      greatest = std::max(greatest, rate);
     });
   });
   return greatest;

@@ -96,13 +96,9 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
     const double rho = w[euler::kDensity], p = w[euler::kPressure<D>];
     if (!(gas.heat(rho, p) > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, p);
     const double c = std::sqrt(gas.soundSpeedSquared(rho, p));
-    double sum = 0, greatest = 0;
-    for (int d = 0; d < D; ++d) {
-      const double one = (std::abs(w[euler::kVelocity(d)]) + c) * level.inverseSpacing(d);
-      sum += one;
-      greatest = std::max(greatest, one);
-    }
-    most = std::max(most, crossing(sum, greatest));
+    const double rate =
+        crossing.ofAxes([&](int d) { return (std::abs(w[euler::kVelocity(d)]) + c) * level.inverseSpacing(d); });
+    most = std::max(most, rate);
   });
   if (most > 0) dt.add(settings.gas.courant.number / most, "CFL");
 }

@@ -101,60 +101,13 @@ template <int D, class T, class Visit>
   });
 }
 
-/// Calls `visit(c)` for squares of Lanes::count columns, the first of which is c, that contain all columns of records
-/// of `numbers` numbers, or all but one or two. The last square overlaps the one before if more would be left.
-template <int numbers, class Visit>
-[[gnu::always_inline]] inline void forEachSquare(Visit&& visit) {
-  constexpr int left = numbers % Lanes::count;
-#pragma GCC unroll 8
-  for (int c = 0; c < numbers - left; c += Lanes::count) visit(c);
-  if constexpr (numbers > Lanes::count && left > 2) visit(numbers - Lanes::count);
-}
-/// The number of columns in these squares.
-template <int numbers>
-constexpr int columnsInSquares =
-    numbers > Lanes::count&& numbers % Lanes::count > 2 ? numbers : numbers - numbers % Lanes::count;
-
-/// What columnsOf does, with fewer instructions for long records.
-template <int numbers, class At>
-[[gnu::always_inline]] inline std::array<Lanes, numbers> columnsOfRecords(At&& at) {
-  std::array<Lanes, numbers> columns;
-  forEachSquare<numbers>([&](int c) __attribute__((always_inline)) {
-    LanesSquare rows;
-#pragma GCC unroll 8
-    for (int k = 0; k < Lanes::count; ++k) rows[k] = Lanes::at(at(k) + c);
-    transpose(rows);
-#pragma GCC unroll 8
-    for (int k = 0; k < Lanes::count; ++k) columns[c + k] = rows[k];
-  });
-#pragma GCC unroll 8
-  for (int c = columnsInSquares<numbers>; c < numbers; ++c) columns[c] = Lanes::of([&](int k) { return at(k)[c]; });
-  return columns;
-}
-/// The inverse of columnsOfRecords.
-template <std::size_t numbers, class At>
-[[gnu::always_inline]] inline void storeRecords(const std::array<Lanes, numbers>& columns, At&& at) {
-  forEachSquare<int(numbers)>([&](int c) __attribute__((always_inline)) {
-    LanesSquare rows;
-#pragma GCC unroll 8
-    for (int k = 0; k < Lanes::count; ++k) rows[k] = columns[c + k];
-    transpose(rows);
-#pragma GCC unroll 8
-    for (int k = 0; k < Lanes::count; ++k) rows[k].copyTo(at(k) + c);
-  });
-#pragma GCC unroll 8
-  for (int c = columnsInSquares<int(numbers)>; c < int(numbers); ++c)
-#pragma GCC unroll 8
-    for (int k = 0; k < Lanes::count; ++k) at(k)[c] = columns[c][k];
-}
-
 /// Loads a variable that has `numbers` consecutive numbers per particle, for the particles of a batch. `at(place)`
 /// points to the first number of a particle.
 template <int numbers, int D, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> loadColumns(const Batch<D>& batch, At&& at) {
   if constexpr (numbers <= Lanes::count)
     if (batch.isContiguous) return unpack<numbers>(at(batch.place[0]));
-  return columnsOfRecords<numbers>([&](int lane) { return at(batch.place[lane]); });
+  return columnsOf<numbers>([&](int lane) { return at(batch.place[lane]); });
 }
 
 template <int D>
@@ -174,7 +127,8 @@ template <int D, std::size_t numbers, class At>
   if constexpr (numbers <= Lanes::count)
     if (batch.isContiguous) return pack(columns, at(batch.place[0]));
   std::array<double, numbers> unused;
-  storeRecords(columns, [&](int lane) { return batch.used[lane] != 0 ? at(batch.place[lane]) : unused.data(); });
+  storeColumns(columns, Lanes::count,
+               [&](int lane) { return batch.used[lane] != 0 ? at(batch.place[lane]) : unused.data(); });
 }
 
 template <int D>

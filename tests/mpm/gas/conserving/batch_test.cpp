@@ -64,18 +64,6 @@ TEST(Batch, ClearsAndIgnoresLanesNotInUse) {
   EXPECT_FALSE(one.holds(ones < 1));
 }
 
-TEST(Batch, KeepsLongRecordsInOrder) {
-  constexpr std::size_t numbers = 21;
-  std::array<std::array<double, numbers>, Lanes::count> records, copies{};
-  for (std::size_t k = 0; k < Lanes::count; ++k)
-    for (std::size_t c = 0; c < numbers; ++c) records[k][c] = static_cast<double>(100 * k + c);
-  const auto columns = columnsOfRecords<numbers>([&](int k) { return records[static_cast<std::size_t>(k)].data(); });
-  for (int k = 0; k < Lanes::count; ++k)
-    for (std::size_t c = 0; c < numbers; ++c) EXPECT_EQ(columns[c][k], 100 * k + static_cast<double>(c));
-  storeRecords(columns, [&](int k) { return copies[static_cast<std::size_t>(k)].data(); });
-  EXPECT_EQ(copies, records);
-}
-
 TEST(AlignedNumbers, BeginACacheLine) {
   for (const std::size_t count : {1, 7, 64, 1001}) {
     const AlignedNumbers numbers(count);
