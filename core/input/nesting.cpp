@@ -70,4 +70,12 @@ std::optional<BadNesting> findBadNesting(std::string_view text) {
   return bad(text.size(), "");
 }
 
+bool isWithinText(std::string_view xml, std::size_t at) {
+  const std::size_t less = xml.rfind('<', at);
+  if (less == npos || less == 0) return false;
+  const std::size_t before = xml.find_last_not_of(" \t\r\n", less - 1);
+  const std::size_t bracket = xml.find_last_of("<>", less - 1);
+  return before != npos && bracket != npos && xml[bracket] == '>' && before != bracket;
+}
+
 }  // namespace tushar::input

@@ -23,4 +23,8 @@ struct BadNesting {
 /// Finds the first nesting error. Checks only tags: comments, CDATA, declarations and text between tags are skipped.
 std::optional<BadNesting> findBadNesting(std::string_view text);
 
+/// Whether the `<` that starts a tag at `at` (the last one up to there) comes after text within the same tag. Scenes
+/// have no tags within text, so this is a `<` that was meant as "less than", as in `<density>1+(x<.5)</density>`.
+bool isWithinText(std::string_view xml, std::size_t at);
+
 }  // namespace tushar::input

@@ -87,11 +87,17 @@ void XmlFile::parse(Diagnostics& diagnostics) {
                              fmt::format("tags are nested more than {} levels deep", mostNested));
   const unsigned options = pugi::parse_default | pugi::parse_comments;
   const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size(), options, pugi::encoding_utf8);
-  if (!result && bad && result.status == pugi::status_end_element_mismatch) {
-    diagnostics.error(locate(bad->where), {}, sentence(*bad));
-    document_.reset();
-  } else if (!result) {
-    diagnostics.error(locate(result.offset), {}, fmt::format("this is not well-formed XML: {}", result.description()));
+  if (!result) {
+    const bool isNesting = bad && result.status == pugi::status_end_element_mismatch;
+    const std::ptrdiff_t tag = isNesting ? bad->whereOpened : result.offset;
+    if (isWithinText(text_, static_cast<std::size_t>(tag)))
+      diagnostics.error(locate(static_cast<std::ptrdiff_t>(text_.rfind('<', static_cast<std::size_t>(tag)))), {},
+                        "found < within a text: in a formula, write &lt; for 'less than'");
+    else if (isNesting)
+      diagnostics.error(locate(bad->where), {}, sentence(*bad));
+    else
+      diagnostics.error(locate(result.offset), {},
+                        fmt::format("this is not well-formed XML: {}", result.description()));
     document_.reset();
   }
   for (auto next = root().next_sibling(); next; next = next.next_sibling()) {

@@ -1,5 +1,7 @@
 #include "core/input/document.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -118,6 +120,13 @@ TEST(Document, SaysWhereXmlIsMalformed) {
             Lines{"s.ups:2:11: found </Tme>, but no such tag is open; the open tag here is <Time> of s.ups:2:4"});
   EXPECT_EQ(problemsOf("<Uintah_specification>\n  <Time <Grid/>\n</Uintah_specification>"),
             Lines{"s.ups:2:9: this is not well-formed XML: Error parsing start element tag"});
+}
+
+TEST(Document, ExplainsALessThanWithinAFormula) {
+  for (const std::string formula : {"1+(x<.5)", "if(x < 0, 1, 2)", "x<y ? 1 : 2", "(x<y) + (y>z)"})
+    EXPECT_EQ(problemsOf(scene("<a>\n</a><b>" + formula + "</b>")),
+              Lines{fmt::format("s.ups:2:{}: found < within a text: in a formula, write &lt; for 'less than'",
+                                8 + formula.find('<'))});
 }
 
 TEST(Document, NamesTheTagThatIsNotClosed) {
