@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <stdexcept>
 #include <type_traits>
 
@@ -24,6 +26,24 @@ class AccessError : public std::logic_error {
 
 [[noreturn]] void refuse(const Label* label, const Index3& index, const grid::Box& box);
 [[noreturn]] void refuse(const Label* label, int particle, int count);
+
+/// Sets `count` values to one value. Vectors and matrices of equal numbers are filled number by number, in the lanes of
+/// registers.
+template <class T, class Count>
+void fillWith(T* values, Count count, const T& value) {
+  if constexpr (requires { T::SizeAtCompileTime; }) {
+    constexpr auto size = static_cast<std::size_t>(T::SizeAtCompileTime);
+    static_assert(sizeof(T) == size * sizeof(double));
+    const auto bits = [&](std::size_t at) { return std::bit_cast<std::uint64_t>(value.data()[at]); };
+    bool areEqual = true;
+    for (std::size_t k = 1; k < size; ++k) areEqual = areEqual && bits(k) == bits(0);
+    if (areEqual && count > 0) {
+      std::fill_n(values->data(), static_cast<std::size_t>(count) * size, value.data()[0]);
+      return;
+    }
+  }
+  std::fill_n(values, count, value);
+}
 
 /// A task's view of a particle variable: one T per particle of its patch and of the declared ghost cells. T is const if
 /// the task may only read.
@@ -100,7 +120,7 @@ class GridView {
   /// The values on the box `stored`, the first axis fastest.
   T* values() const { return values_; }
   /// Sets all stored values to one value.
-  void fill(const std::remove_const_t<T>& value) const { std::fill_n(values_, stored_.size(), value); }
+  void fill(const std::remove_const_t<T>& value) const { fillWith(values_, stored_.size(), value); }
 
  private:
   template <int D>

@@ -119,6 +119,20 @@ TEST(Norm, DoesNotHideANaN) {
   EXPECT_TRUE(std::isnan(norm.max));
 }
 
+TEST(GridView, IsFilledWithEqualAndWithDifferentNumbers) {
+  const grid::Box box{{0, 0, 0}, {3, 2, 1}};
+  std::vector<Vec<2>> values(6, Vec<2>(7, 8));
+  const CellView<Vec<2>> view(values.data(), box);
+  for (const Vec<2>& value : {Vec<2>(1, 1), Vec<2>(1, 2), Vec<2>(-0.0, 0.0), Vec<2>(0, 0)}) {
+    view.fill(value);
+    for (const Vec<2>& one : values)
+      for (int d = 0; d < 2; ++d) {
+        EXPECT_EQ(one[d], value[d]);
+        EXPECT_EQ(std::signbit(one[d]), std::signbit(value[d]));
+      }
+  }
+}
+
 TEST(Buffer, KeepsWhatItIsToldToKeepWhenItGrows) {
   Buffer buffer;
   buffer.reserve(8);
