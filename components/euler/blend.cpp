@@ -1,5 +1,7 @@
 #include "components/euler/blend.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace tushar::euler {
@@ -12,6 +14,8 @@ constexpr double leastPressure = 1e-100, greatestPressure = 1e16;
 constexpr double roundOff = 4e-15;
 /// The relative change from which on the next step of Newton's method would change less than round-off.
 constexpr double nearlyDone = 1e-8;
+/// The relative difference of volume and energy up to which a state is an equilibrium.
+constexpr double tolerance = 1e-8;
 /// The volume fraction up to which the law of water may be outside the range where it is valid: a trace in hot gas.
 constexpr double leastShareOfWater = 1e-6;
 
@@ -191,7 +195,8 @@ Blend BlendLaws::at(const double* masses, double energy) const {
     const double warms = (missing - s.energyOfPressure * (next - pressure)) / s.energyOfHeat;
     const double after = temperature + std::clamp(warms, -0.7 * temperature, 2 * temperature);
     const double risen = std::abs(std::log(next / pressure));
-    isDone = std::abs(after - temperature) <= nearlyDone * temperature &&
+    const bool falls = excess < -tolerance && next > leastPressure;  // a liquid that does not fill the cell
+    isDone = std::abs(after - temperature) <= nearlyDone * temperature && !falls &&
              (risen <= nearlyDone || softness * risen <= roundOff);  // also at the limits of the pressure
     pressure = next;
     temperature = after;
@@ -205,7 +210,6 @@ Blend BlendLaws::at(const double* masses, double energy) const {
   blend.temperature = temperature;
   // A small stiffness remains in a liquid that does not fill its cell, so that the speeds of waves stay distinct.
   blend.modulus = std::max(sums.modulus(temperature), 1e-12 * whole);
-  constexpr double tolerance = 1e-8;
   blend.isPossible = temperature > 0 && blend.modulus > 0 && std::isfinite(blend.modulus) &&
                      std::abs(sums.energy - energy) <= tolerance * whole && (sums.volume < 1 + tolerance) &&
                      (pressure <= 2 * leastPressure || sums.volume > 1 - tolerance);
@@ -213,6 +217,15 @@ Blend BlendLaws::at(const double* masses, double energy) const {
     if (const Water* water = substances_[k].water; water && blend.shares[k] > leastShareOfWater)
       blend.isPossible &= water->isValid(pressure, temperature);
   return blend;
+}
+
+std::string BlendLaws::limits() const {
+  for (const Substance& one : substances_) {
+    if (!one.water) continue;
+    const auto [coldest, hottest] = one.water->temperatureLimits();
+    return fmt::format("; the law of the water is valid between {:.4g} and {:.4g} K (at p = 0)", coldest, hottest);
+  }
+  return "";
 }
 
 }  // namespace tushar::euler

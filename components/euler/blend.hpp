@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "components/euler/mixture.hpp"
@@ -56,6 +57,9 @@ class BlendLaws {
     for (int k = 0; k < K; ++k) w[kShare<D, K>(k)] = k == 0 ? law.softness : k == 1 ? law.stiffness : 0;
     return w;
   }
+
+  /// Up to which temperatures the laws are valid, for messages; empty if this is not limited.
+  std::string limits() const;
 
  private:
   /// A gas with p = p_cold(rho) + h(rho) c_v T and e = E_cold(rho) / rho + c_v T, where h = Gamma rho / (1 - b rho); or

@@ -203,18 +203,25 @@ double soundSpeedSquaredIn(const GhostRule<D>& rule, const std::array<double, N>
 }
 
 /// Weakens the incoming wave in a state, at constant entropy, to let waves out; the wave decays over `cells` cells. It
-/// compresses all gases of a cell by the same factor.
+/// compresses all gases of a cell by the same factor. If the pressure depends on the density alone, the temperature
+/// stays, so the last component, rho c_v T, changes like the density.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;
   double& speed = w[kVelocity(side.axis)];
+  constexpr int K = kGasesIn<D, N>;
   const double squared = soundSpeedSquaredIn<D>(rule, w), sound = std::sqrt(squared);
-  const double half = 0.5 * cells * side.loss(w[kPressure<D>], side.outwards * speed, sound);
+  const double pressure = K == 1 ? rule.gas->pressureOf(w[kDensity], w[kPressure<D>]) : w[kPressure<D>];
+  const double half = 0.5 * cells * side.loss(pressure, side.outwards * speed, sound);
   speed += side.outwards * half / (w[kDensity] * sound);
-  if constexpr (constexpr int K = kGasesIn<D, N>; K > 1)
+  if constexpr (K > 1)
     for (int k = 0; k < K; ++k) w[kMass<D>(k)] -= w[kMass<D>(k)] / w[kDensity] * (half / squared);
+  const double before = w[kDensity];
   w[kDensity] -= half / squared;
-  w[kPressure<D>] -= half;
+  if (K == 1 && rule.gas->isBarotropic())
+    w[kPressure<D>] *= w[kDensity] / before;
+  else
+    w[kPressure<D>] -= half;
 }
 
 /// The state at a distance of `cells` cells beyond a side, from a rule and the state `w` of the cell inside.

@@ -42,7 +42,7 @@ struct GhostRule {
   double densityOfPressure = 0;  ///< if greater than 0, rho is (p + p_inf) times this number [kg/(m³ Pa)]
   double pInfinity = 0;          ///< p_inf [Pa]
   double temperature = 0;        ///< if greater than 0, the temperature of a gas with its own law [K]
-  const Gas* gas = nullptr;      ///< the gas with its own law
+  const Gas* gas = nullptr;      ///< the only gas, if the rule depends on its law
   Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
   Mixture<kMostGases> laws;      ///< laws of several gases, used by the relaxation
 };
@@ -103,14 +103,18 @@ GhostRules<D> withLaws(GhostRules<D> rules, const Mixture<K>& laws) {
   Mixture<kMostGases> all;
   std::copy(laws.softness.begin(), laws.softness.end(), all.softness.begin());
   std::copy(laws.stiffness.begin(), laws.stiffness.end(), all.stiffness.begin());
+  const auto takeLaws = [all](GhostRule<D>& rule) {
+    rule.laws = all;
+    rule.gas = nullptr;
+  };
   for (auto& sides : rules)
     for (SideRules<D>& side : sides) {
-      side.laws = all;
-      for (GhostRule<D>& part : side.parts) part.laws = all;
+      takeLaws(side);
+      for (GhostRule<D>& part : side.parts) takeLaws(part);
       if (side.varying)
-        side.varying = [all, makeRule = std::move(side.varying)](int part, const Index<D>& cell) {
+        side.varying = [takeLaws, makeRule = std::move(side.varying)](int part, const Index<D>& cell) {
           GhostRule<D> rule = makeRule(part, cell);
-          rule.laws = all;
+          takeLaws(rule);
           return rule;
         };
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tushar::euler {
 
@@ -265,6 +266,8 @@ class Water {
     }
     return point;
   }
+  /// The temperatures [K] between which the law is valid at p = 0.
+  std::pair<double, double> temperatureLimits() const { return {n_.temperature, n_.temperature + greatestX_}; }
   /// Whether the law is valid up to the greatest x.
   bool isValid(double p, double t) const { return n_.a * p + t - n_.temperature <= greatestX_; }
 

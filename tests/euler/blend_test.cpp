@@ -115,7 +115,30 @@ TEST(Blend, OfWaterAndAirMayBeWhereWaterAloneHasNoRange) {
   EXPECT_FALSE(laws.at(masses.data(), 100 * 4205.7 * 400).isPossible) << "water at 677 K";
 }
 
+TEST(Blend, OfWaterThatDoesNotFillItsCellHasAlmostNoPressure) {
+  const BlendLaws laws({water(), air()});
+  const Gas gas = water();
+  const double rho = gas.densityAt(0, 300), perMass = gas.energyOf(rho, 0) / rho;
+  for (const double filled : {0.5, 0.9999, 0.999999})
+    for (const double trace : {0.0, 1e-268, 1e-100, 1e-20}) {
+      const Masses masses{filled * rho, trace, 0};
+      const Blend blend = laws.at(masses.data(), masses[0] * perMass);
+      EXPECT_TRUE(blend.isPossible) << filled << ' ' << trace;
+      EXPECT_LE(blend.pressure, 1e-6);
+      EXPECT_NEAR(blend.temperature, 300, 1e-6);
+      EXPECT_GT(blend.modulus, 0);
+    }
+}
+
+TEST(Blend, SaysUpToWhereTheLawOfWaterIsValid) {
+  EXPECT_EQ(BlendLaws({water(), air()}).limits(), "; the law of the water is valid between 277 and 352.7 K (at p = 0)");
+  EXPECT_EQ(BlendLaws({jwl(), air()}).limits(), "");
+}
+
 class BlendOf : public testing::TestWithParam<Gas> {};
+/// Without it, tests would be named after the bytes of a gas.
+[[maybe_unused]] void PrintTo(const Gas& gas, std::ostream* out) { *out << "c_v = " << gas.specificHeat; }
+
 INSTANTIATE_TEST_SUITE_P(Products, BlendOf, testing::Values(jwl(), spheres(), water()));
 
 TEST_P(BlendOf, HasTheSoundSpeedOfItsIsentrope) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "components/euler/boundary.hpp"
+#include "components/euler/tasks/advance_mixture.hpp"
 #include "tests/euler/gas_box.hpp"
 
 // Gas that enters through the sides of the grid.
@@ -157,6 +158,19 @@ TEST(GasSides, TakeConditionsOfTheirMaterialAndThePressureOfAll) {
   const Conditions conditions{given(boundary::density, 3, 0), given(boundary::density, 5, 1),
                               given(boundary::pressure, 7, 0)};
   EXPECT_EQ(beyond(conditions, second), gasAt(5, 0.3, 7));
+}
+
+TEST(GasSides, GiveSeveralGasesThePressureWhateverTheFirstOneIs) {
+  const ColdCurve cold{.kind = ColdCurve::Kind::murnaghan, .density = 1, .exponent = 2, .compressibility = 1};
+  Settings solid, second;
+  solid.gas = {.specificHeat = 1, .law = std::make_shared<const Gas::Law>(CurvedGas(cold, 0, 1))};
+  second.gas = air();
+  grid::Domain domain = openBox(1, 4);
+  domain.boundaries.face(0, 0) = {given(boundary::pressure, 7)};
+  const Grid grid(domain);
+  const GhostRule<1> rule = ghostRulesOf<1>(grid.level(), solid.gas, {solid, second})[0][0];
+  EXPECT_EQ(rule.factor, (State<1>{1, 1, 0}));
+  EXPECT_EQ(rule.value, (State<1>{0, 0, 7}));
 }
 
 }  // namespace tushar::euler

@@ -28,7 +28,7 @@ void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases,
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (isPossible<D>(gases, held, state, cell)) return;
     if (gases.front().blend)
-      refuseBlend<D>(patch.level(), cell, massesIn(held, cell), internalEnergyIn<D>(state, cell));
+      refuseBlend<D>(*gases.front().blend, patch.level(), cell, massesIn(held, cell), internalEnergyIn<D>(state, cell));
     refuseState<D, T>(patch.level(), mixedAt(gases, held, cell).alike(), cell, state, nullptr);
   });
 }
@@ -44,7 +44,7 @@ void advanceMixture(const Patch& patch, const std::vector<Settings>& gases, cons
   RimFluxes<D> allRims = rims;
   allRims.gases = gasRims;
   const GhostRules<D> rules =
-      withLawsOf<D>(ghostRules<D>(level, gases.front().gas, time, patch.cells().grown(Shape::reach, D)), gases);
+      ghostRulesOf<D>(level, gases.front().gas, gases, time, patch.cells().grown(Shape::reach, D));
   const Mixture<K> mixture = mixtureOf<K>(gases);
   const auto before = viewsOf<const double, D>(old, oldGases);
   const auto after = viewsOf<double, D>(fresh, newGases);
@@ -77,12 +77,12 @@ void closeShares(const Patch& patch, const std::vector<Settings>&, const std::ve
 }
 
 template <int D>
-void refuseBlend(const Level& level, const Index<D>& cell, const std::array<double, kMostGases>& masses,
-                 double energy) {
+void refuseBlend(const BlendLaws& laws, const Level& level, const Index<D>& cell,
+                 const std::array<double, kMostGases>& masses, double energy) {
   const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
   throw NumericalError(fmt::format("the gases of the cell at ({:g}, {:g}, {:g}) m became impossible: {:.6g} kg/m^3 "
-                                   "with the internal energy {:.6g} J/m^3",
-                                   at[0], at[1], at[2], fmt::join(masses, " + "), energy),
+                                   "with the internal energy {:.6g} J/m^3{}",
+                                   at[0], at[1], at[2], fmt::join(masses, " + "), energy, laws.limits()),
                        "", "c.density", level.cellNumber<D>(cell));
 }
 
@@ -96,7 +96,7 @@ void closeBlend(const Patch& patch, const std::vector<Settings>& gases, CellView
     std::array<double, kMostGases> held{};
     for (std::size_t k = 0; k < masses.size(); ++k) held[k] = masses[k][cell];
     const Blend blend = laws.at(held.data(), energy);
-    if (!(density[cell] > 0) || !blend.isPossible) refuseBlend<D>(patch.level(), cell, held, energy);
+    if (!(density[cell] > 0) || !blend.isPossible) refuseBlend<D>(laws, patch.level(), cell, held, energy);
     for (std::size_t k = 0; k < shares.size(); ++k) shares[k][cell] = blend.shares[k];
   });
 }
@@ -137,7 +137,8 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, co
     const double energy = internalEnergyIn<D, const double>(old, cell);
     const MixedGas mixed = lawAt(gases, held, energy, cell);
     const double rho = old.density[cell], p = mixed.pressure(rho, energy);
-    if (gases.front().blend && !(mixed.softness > 0)) refuseBlend<D>(patch.level(), cell, massesIn(held, cell), energy);
+    if (gases.front().blend && !(mixed.softness > 0))
+      refuseBlend<D>(*gases.front().blend, patch.level(), cell, massesIn(held, cell), energy);
     const double c = std::sqrt(mixed.soundSpeedSquared(rho, p));
     const double rate = crossing.ofAxes(
         [&](int d) { return (std::abs(old.momentum[cell][d]) / rho + c) * patch.level().inverseSpacing(d); });
@@ -146,20 +147,21 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, co
   if (greatest > 0) dt.add(courant.number / greatest, "CFL");
 }
 
-#define TUSHAR_MIXTURE(D)                                                                                           \
-  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<OldGas>&,         \
-                                    const StateViews<D, const double>&);                                            \
-  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<NewGas>&,         \
-                                    const StateViews<D, double>&);                                                  \
-  template AdvanceMixture<D> chooseAdvanceMixture<D>(const Method&, std::size_t);                                   \
-  template void closeShares<D>(const Patch&, const std::vector<Settings>&, const std::vector<CellView<double>>&);   \
-  template void mendNewMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,              \
-                                  const ChangedState<D>&, const std::vector<ChangedGas>&);                          \
-  template void closeBlend<D>(const Patch&, const std::vector<Settings>&, CellView<const double>,                   \
-                              CellView<const Vec<D>>, CellView<const double>,                                       \
-                              const std::vector<CellView<const double>>&, const std::vector<CellView<double>>&);    \
-  template void refuseBlend<D>(const Level&, const Index<D>&, const std::array<double, kMostGases>&, double);       \
-  template void limitMixtureStep<D>(const Patch&, const std::vector<Settings>&, const Courant&, const OldState<D>&, \
+#define TUSHAR_MIXTURE(D)                                                                                              \
+  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<OldGas>&,            \
+                                    const StateViews<D, const double>&);                                               \
+  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<NewGas>&,            \
+                                    const StateViews<D, double>&);                                                     \
+  template AdvanceMixture<D> chooseAdvanceMixture<D>(const Method&, std::size_t);                                      \
+  template void closeShares<D>(const Patch&, const std::vector<Settings>&, const std::vector<CellView<double>>&);      \
+  template void mendNewMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,                 \
+                                  const ChangedState<D>&, const std::vector<ChangedGas>&);                             \
+  template void closeBlend<D>(const Patch&, const std::vector<Settings>&, CellView<const double>,                      \
+                              CellView<const Vec<D>>, CellView<const double>,                                          \
+                              const std::vector<CellView<const double>>&, const std::vector<CellView<double>>&);       \
+  template void refuseBlend<D>(const BlendLaws&, const Level&, const Index<D>&, const std::array<double, kMostGases>&, \
+                               double);                                                                                \
+  template void limitMixtureStep<D>(const Patch&, const std::vector<Settings>&, const Courant&, const OldState<D>&,    \
                                     const std::vector<OldGas>&, Minimum&);
 TUSHAR_MIXTURE(1)
 TUSHAR_MIXTURE(2)

@@ -69,17 +69,22 @@ template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state);
 
-/// The rules with the laws of these gases; for a single gas, `gases` is empty.
+/// Like ghostRules, but with the laws of several gases; the conditions are those of `first`, without its law: a
+/// pressure that is given is that of all gases, also if that of the first one depends on its density alone. For a
+/// single gas, `gases` is empty.
 template <int D>
-GhostRules<D> withLawsOf(GhostRules<D> rules, const std::vector<Settings>& gases) {
-  if (gases.size() == 2) return withLaws<D>(std::move(rules), mixtureOf<2>(gases));
-  return gases.size() == 3 ? withLaws<D>(std::move(rules), mixtureOf<3>(gases)) : rules;
+GhostRules<D> ghostRulesOf(const Level& level, const Gas& first, const std::vector<Settings>& gases, double time,
+                           const Box& cells) {
+  if (gases.empty()) return ghostRules<D>(level, first, time, cells);
+  Gas shared = first;
+  shared.law = nullptr;
+  GhostRules<D> rules = ghostRules<D>(level, shared, time, cells);
+  return gases.size() == 2 ? withLaws<D>(std::move(rules), mixtureOf<2>(gases))
+                           : withLaws<D>(std::move(rules), mixtureOf<3>(gases));
 }
-/// Like ghostRules, but with the laws of several gases; the conditions are those of `first`. For a single gas, `gases`
-/// is empty.
 template <int D>
 GhostRules<D> ghostRulesOf(const Level& level, const Gas& first, const std::vector<Settings>& gases, double time = 0) {
-  return withLawsOf<D>(ghostRules<D>(level, first, time), gases);
+  return ghostRulesOf<D>(level, first, gases, time, level.cells().grown(1, D));
 }
 
 /// The views of the joint state of all gases, and of the state of each.
@@ -123,8 +128,8 @@ void closeBlend(const Patch& patch, const std::vector<Settings>& gases, CellView
 /// Throws NumericalError for a cell whose gases, with laws of their own, have no equilibrium, given the mass [kg/m³]
 /// of each and the internal energy [J/m³] of all, per volume of the gas.
 template <int D>
-[[noreturn]] void refuseBlend(const Level& level, const Index<D>& cell, const std::array<double, kMostGases>& masses,
-                              double energy);
+[[noreturn]] void refuseBlend(const BlendLaws& laws, const Level& level, const Index<D>& cell,
+                              const std::array<double, kMostGases>& masses, double energy);
 
 /// Views of the variables of one of several gases that regridding changes.
 struct ChangedGas {

@@ -8,19 +8,35 @@ namespace tushar::euler {
 
 namespace {
 
-void checkState(const Settings& settings, const GasObject& object, const Vec3& point, double density, double last,
-                const Vec3& velocity) {
+/// What a state of a gas must be like, for a message.
+std::string allowed(const Gas& gas, double density) {
+  if (!gas.law) return "a positive density and pressure + p_infinity, and finite values";
+  if (!(density > 0)) return "a positive density";
+  const auto [least, most] = gas.energyLimits(density);
+  const double inset = std::isfinite(most) ? 1e-6 * (most - least) : 0;  // not on the limit, where round-off decides
+  const double coldest = gas.temperature(density, (least + inset) * density);
+  const double hottest = gas.temperature(density, (most - inset) * density);
+  if (!std::isfinite(coldest)) return "a density for which the law of the gas is valid, and finite values";
+  const std::string range = std::isfinite(hottest) ? fmt::format("between {:.4g} and {:.4g} K", coldest, hottest)
+                                                   : fmt::format("above {:.4g} K", coldest);
+  return fmt::format("a temperature {}, where the law of the gas is valid at this density, and finite values", range);
+}
+
+void checkState(const Settings& settings, const GasObject& object, const Vec3& point, double density,
+                double temperature, double last, const Vec3& velocity) {
   const bool finite = std::isfinite(density) && std::isfinite(last) && velocity.allFinite();
   if (finite && density > 0 && settings.gas.heat(density, last) > 0) return;
-  const double pressure = settings.gas.pressureOf(density, last);
+  const std::string second = object.temperature
+                                 ? fmt::format("temperature {:g} K", temperature)
+                                 : fmt::format("pressure {:g} Pa", settings.gas.pressureOf(density, last));
   throw InputError(
       {{placeOf({&object.density.where(), &(object.temperature ? *object.temperature : object.pressure).where(),
                  &object.velocity.where()},
                 object.where),
         settings.section + "/geom_object",
-        fmt::format("density {:g} kg/m^3, pressure {:g} Pa and velocity ({:g}, {:g}, {:g}) m/s at ({:g}, "
-                    "{:g}, {:g}); expected a positive density and pressure + p_infinity, and finite values",
-                    density, pressure, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2])}});
+        fmt::format("density {:g} kg/m^3, {} and velocity ({:g}, {:g}, {:g}) m/s at ({:g}, {:g}, {:g}); expected {}",
+                    density, second, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2],
+                    allowed(settings.gas, density))}});
 }
 
 /// The last object that contains a point; null if no object does.
@@ -59,7 +75,7 @@ std::optional<State<D>> stateAt(const Level& level, const Settings& settings, co
   Vec3 wide = object->velocity(point);
   if (settings.disturb) settings.disturb(point, rho, wide, temperature);
   const double last = object->temperature ? settings.gas.lastAt(rho, temperature) : object->pressure(point);
-  checkState(settings, *object, point, rho, last, wide);
+  checkState(settings, *object, point, rho, temperature, last, wide);
   const Vec<D> v = level.reduce<D>(wide);
   State<D> state;
   state[kDensity] = rho;

@@ -84,7 +84,8 @@ void closeGases(const Patch& patch, const Settings& settings, const ReactingGas<
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (gas.isEmpty(cell)) return;
     const euler::Blend blend = gas.blend(settings, cell);
-    if (!blend.isPossible) euler::refuseBlend<D>(patch.level(), cell, gas.own(cell), gas.energy(cell));
+    if (!blend.isPossible)
+      euler::refuseBlend<D>(*settings.gases.front().blend, patch.level(), cell, gas.own(cell), gas.energy(cell));
     for (std::size_t k = 0; k < gas.shares.size(); ++k) gas.shares[k][cell] = blend.shares[k];
   });
 }
