@@ -108,7 +108,9 @@ void checkMomentum(const ice::GasScene& scene, int solids, bool areRigid, const 
   const std::vector<euler::Settings> gases =
       scene.mixture.empty() ? std::vector<euler::Settings>{scene.gas} : scene.mixture;
   const int count = static_cast<int>(gases.size());
-  if (momentum.empty() || !hasAllPairs(momentum, "momentum", solids + count, tag, diagnostics)) return;
+  const auto given = tag.child("momentum");
+  if (!given || !input::parse<std::vector<double>>(given->text()).value) return;  // absent, or already refused
+  if (!hasAllPairs(momentum, "momentum", solids + count, tag, diagnostics)) return;
   const double walls = std::min(1e9, 10 * fastestCrossing(gases, root));
   forEachPairWithGas(momentum, solids, count, [&](int body, double k) {
     if (k >= walls || (areRigid && k == 0)) return;

@@ -279,6 +279,7 @@ class WrongScenes(RefusedSceneTest):
     def test_a_number_for_each_pair_of_materials(self):
         self.assert_refused(PLUG.replace("<momentum>[1e15]", "<momentum>[1e15,1e15]"),
                             "found 2 numbers, expected 1: one for each pair of 2 materials")
+        self.assert_refused(PLUG.replace("<momentum>[1e15]", "<momentum>[]"), "found 0 numbers, expected 1")
         self.assert_refused(PLUG.replace("<heat>[0]", "<heat>[0,0]"), "found 2 numbers, expected 1")
 
     def test_cells_may_be_half_full(self):
