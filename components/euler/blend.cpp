@@ -210,9 +210,9 @@ Blend BlendLaws::at(const double* masses, double energy) const {
   blend.temperature = temperature;
   // A small stiffness remains in a liquid that does not fill its cell, so that the speeds of waves stay distinct.
   blend.modulus = std::max(sums.modulus(temperature), 1e-12 * whole);
-  blend.isPossible = temperature > 0 && blend.modulus > 0 && std::isfinite(blend.modulus) &&
-                     std::abs(sums.energy - energy) <= tolerance * whole && (sums.volume < 1 + tolerance) &&
-                     (pressure <= 2 * leastPressure || sums.volume > 1 - tolerance);
+  blend.isPossible = temperature > 0 && pressure < greatestPressure && blend.modulus > 0 &&
+                     std::isfinite(blend.modulus) && std::abs(sums.energy - energy) <= tolerance * whole &&
+                     (sums.volume < 1 + tolerance) && (pressure <= 2 * leastPressure || sums.volume > 1 - tolerance);
   for (std::size_t k = 0; k < substances_.size(); ++k)
     if (const Water* water = substances_[k].water; water && blend.shares[k] > leastShareOfWater)
       blend.isPossible &= water->isValid(pressure, temperature);

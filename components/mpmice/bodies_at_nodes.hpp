@@ -27,6 +27,9 @@ struct BodyAtFaces {
 /// Bodies have parts in a face by what they cover of it; if none covers it, by what they fill of the cells on both
 /// sides, and else by mass. Nodes have parts in their body by mass. So a heavy body that is near a wall of another one,
 /// but not in it, does not move the wall.
+///
+/// A node on a side of the grid that the face meets has only half of the mass that it would have inside, and belongs to
+/// half as many faces. So its mass counts twice there, and a plane wall moves as one.
 template <int D>
 class BodiesAtNodes {
  public:
@@ -47,13 +50,13 @@ class BodiesAtNodes {
     return nodes;
   }
   /// The mass that a force at the face accelerates [kg], that is, the force divided by the acceleration of velocityAt;
-  /// 0 without mass. With one body, it is the mass at the nodes of nodesAt.
+  /// 0 without mass. With one body, and away from sides of the grid, it is the mass at the nodes of nodesAt.
   double massAt(const Index<D>& cell, int axis) const {
-    if (records_->size() == 1) return sumAt(cell, axis, 0, mpm::solid::lane::velocity).mass;
+    if (records_->size() == 1) return sumAt(cell, axis, 0, mpm::solid::lane::velocity).inertia();
     double whole = 0, perMass = 0;
     forEachBody(cell, axis, mpm::solid::lane::velocity, [&](std::size_t, double part, const Content& of) {
       whole += part;
-      perMass += part * (part / of.mass);
+      perMass += part * (part / of.inertia());
     });
     return whole > 0 ? whole * (whole / perMass) : 0;
   }
@@ -79,7 +82,7 @@ class BodiesAtNodes {
               velocityAt(cell, axis, mpm::solid::lane::velocity)[axis]};
     double mass = 0;
     Speeds sum;
-    forEachAt(cell, axis, 0, [&](const Index<D>&, const mpm::solid::NodeRecord& record, double m) {
+    forEachAt(cell, axis, 0, [&](const Index<D>&, const mpm::solid::NodeRecord& record, double m, double) {
       mass += m;
       sum.before += m * numberIn(record, mpm::solid::lane::before + axis);
       sum.after += m * numberIn(record, mpm::solid::lane::velocity + axis);
@@ -94,14 +97,14 @@ class BodiesAtNodes {
     constexpr int lane = mpm::solid::lane::velocity;
     if (records_->size() == 1) {
       const double mass = sumAt(cell, axis, 0, lane).mass;
-      forEachAt(cell, axis, 0, [&](const Index<D>& node, const mpm::solid::NodeRecord&, double m) {
+      forEachAt(cell, axis, 0, [&](const Index<D>& node, const mpm::solid::NodeRecord&, double m, double) {
         visit(std::size_t{0}, node, m / mass);
       });
       return;
     }
     forEachBody(cell, axis, lane, [&](std::size_t, double part, const Content&) { whole += part; });
     forEachBody(cell, axis, lane, [&](std::size_t body, double part, const Content& of) {
-      forEachAt(cell, axis, body, [&](const Index<D>& node, const mpm::solid::NodeRecord&, double m) {
+      forEachAt(cell, axis, body, [&](const Index<D>& node, const mpm::solid::NodeRecord&, double m, double) {
         visit(body, node, m / of.mass * (part / whole));
       });
     });
@@ -119,27 +122,54 @@ class BodiesAtNodes {
   static double numberIn(const mpm::solid::NodeRecord& record, int lane) {
     return reinterpret_cast<const double*>(&record)[lane];
   }
-  /// Calls `visit(node, record, mass)` for the nodes of a body that have mass.
+  /// How many times the mass of a node counts at a face: twice for each axis along the face at whose ends it is.
+  double multiplicity(const Index<D>& node, int axis) const {
+    double times = 1;
+    for (int d = 0; d < D; ++d)
+      if (d != axis && !level_->isPeriodic(d) &&
+          (node[d] == level_->cells().lower[d] || node[d] == level_->cells().upper[d]))
+        times *= 2;
+    return times;
+  }
+  /// Whether the nodes of a face may have a multiplicity other than 1.
+  bool meetsSide(const Index<D>& cell, int axis) const {
+    bool meets = false;
+    for (int d = 0; d < D; ++d)
+      meets |= d != axis && !level_->isPeriodic(d) &&
+               (cell[d] <= level_->cells().lower[d] || cell[d] >= level_->cells().upper[d] - 1);
+    return meets;
+  }
+  /// Calls `visit(node, record, mass, multiplicity)` for the nodes of a body that have mass, which is multiplied by the
+  /// multiplicity.
   template <class Visit>
   void forEachAt(const Index<D>& cell, int axis, std::size_t body, Visit&& visit) const {
     const auto& records = (*records_)[body].records;
+    const bool meets = D > 1 && meetsSide(cell, axis);
     forEachRow<D>(nodesAt(cell, axis), [&](Index<D> node, int count) {
       const mpm::solid::NodeRecord* record = &records[node];
-      for (int i = 0; i < count; ++i, ++node[0], ++record)
-        if (const double m = numberIn(*record, mpm::solid::lane::mass); m > 0) visit(node, *record, m);
+      for (int i = 0; i < count; ++i, ++node[0], ++record) {
+        const double m = numberIn(*record, mpm::solid::lane::mass);
+        if (!(m > 0)) continue;
+        const double times = meets ? multiplicity(node, axis) : 1;
+        visit(node, *record, times * m, times);
+      }
     });
   }
   /// Mass [kg] and momentum of a body at the nodes of a face.
   struct Content {
     double mass = 0;
+    double timesMass = 0;  ///< the sum of the masses times their multiplicities
     Vec<D> momentum = Vec<D>::Zero();
 
     Vec<D> velocity() const { return mass > 0 ? Vec<D>(momentum / mass) : momentum; }
+    /// The force on this body divided by the acceleration of its velocity [kg].
+    double inertia() const { return mass > 0 ? mass * (mass / timesMass) : 0; }
   };
   Content sumAt(const Index<D>& cell, int axis, std::size_t body, int lane) const {
     Content sum;
-    forEachAt(cell, axis, body, [&](const Index<D>&, const mpm::solid::NodeRecord& record, double m) {
+    forEachAt(cell, axis, body, [&](const Index<D>&, const mpm::solid::NodeRecord& record, double m, double times) {
       sum.mass += m;
+      sum.timesMass += times * m;
       for (int d = 0; d < D; ++d) sum.momentum[d] += m * numberIn(record, lane + d);
     });
     return sum;

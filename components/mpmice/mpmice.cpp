@@ -266,6 +266,9 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   tasks.perPatch("mpmice::computeStableTimeStep",
                  settings_.gases.empty() ? computeStableTimeStep<D> : limitStepOfGases<D>, with(settings_),
                  gasIn(readsOld, {}), computes(delT));
+  if (!settings_.areRigid)
+    tasks.acrossMaterials("mpmice::limitStepOfLightBodies", limitStepOfLightBodies<D>, materials, with(settings_),
+                          withoutMaterial(gasIn(readsOld, {.room = 1})), computes(delT));
   if (settings_.diffusion.acts() && !settings_.diffusion.varies())
     tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_), gasIn(readsOld, {}),
                    requiresOld(total::diffusivityAtStart), computes(delT));

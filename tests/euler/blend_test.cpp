@@ -130,6 +130,13 @@ TEST(Blend, OfWaterThatDoesNotFillItsCellHasAlmostNoPressure) {
     }
 }
 
+TEST(Blend, IsImpossibleAtPressuresThatItDoesNotSeek) {
+  const BlendLaws laws({explosive(), air()});
+  const Masses masses{0, 1e5, 0};
+  EXPECT_TRUE(laws.at(masses.data(), 2e16).isPossible);
+  EXPECT_FALSE(laws.at(masses.data(), 4e16).isPossible) << "1.6e16 Pa";
+}
+
 TEST(Blend, SaysUpToWhereTheLawOfWaterIsValid) {
   EXPECT_EQ(BlendLaws({water(), air()}).limits(), "; the law of the water is valid between 277 and 352.7 K (at p = 0)");
   EXPECT_EQ(BlendLaws({jwl(), air()}).limits(), "");

@@ -99,6 +99,25 @@ TYPED_TEST(FlatAlongAxes, AreTheCellsOfBodiesAndTheirNeighboursAlsoBeyondTheGrid
   });
 }
 
+TYPED_TEST(FlatAlongAxes, StepsAreShorterBesideLighterBodies) {
+  constexpr int D = TypeParam::value;
+  const Grid grid(euler::closedBox(D, 6));
+  GasFields<D> fields(grid.level().cells());
+  Settings settings;
+  const auto stepBeside = [&](double density) {
+    std::vector<mpm::solid::Material> bodies(2);
+    bodies[0].density = 1000;
+    bodies[1].density = density;
+    Minimum dt;
+    limitStepOfLightBodies<D>(grid.patches().front(), bodies, settings, fields.gas(), dt);
+    return dt.value;
+  };
+  EXPECT_EQ(stepBeside(0.1), Minimum().value) << "there is no wall";
+  fields.free.values.back() = fields.density.values.back() = 0;
+  EXPECT_NEAR(stepBeside(0.1) / (0.1 / std::sqrt(1.4) / 6), 1, 1e-14);
+  EXPECT_EQ(stepBeside(0.8), Minimum().value) << "cfl is .8";
+}
+
 TYPED_TEST(FlatAlongAxes, StepsFollowFromTheFastestCellWithGas) {
   constexpr int D = TypeParam::value;
   const Grid grid(euler::closedBox(D, D == 1 ? 600 : D == 2 ? 21 : 9));

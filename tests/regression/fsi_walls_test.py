@@ -13,6 +13,7 @@ from solids import SceneTest, globals_of, last_state
 from sus import run
 from wall_gallery import CASES, Case, leaving, text_of
 
+SAVE_VELOCITY = ("<outputInitTimestep/>", '<outputInitTimestep/><save label="p.velocity"/>')
 HEAT = "MaterialProperties/exchange_properties/exchange_coefficients/heat=[1e15]"
 
 
@@ -48,6 +49,61 @@ class ThinBodies(SceneTest):
             done = run(self.scene(text), options=("--check",))
             self.assertEqual(done.code, 0, done.err)
             self.assertEqual(note in done.err, is_noted, done.err)
+
+
+class PlaneProblems(SceneTest):
+    def test_stay_plane_between_symmetry_planes(self):
+        """The gas moves an elastic plug, in a tube and in slices of it with two and three axes."""
+        text = changed(fsi.scene("closed_box").read_text(), SAVE_VELOCITY)
+        short = "Time/maxTime=0.1"
+        alone = sorted(last_state(self.scene(text), "p.velocity", sets=(short,))["p.velocity.x [m/s]"])
+        for rows, particles in ("4,1", "4,4,1"), ("3,2", "4,2,2"):
+            y, z = map(int, rows.split(","))
+            upper = f"Grid/Level/Box/upper=[1,{.02 * y},{.02 * z if z > 1 else 1}]"
+            there = last_state(self.scene(text.replace("<res>[4,1,1]</res>", f"<res>[{particles}]</res>")), "p.velocity",
+                               sets=(short, upper, f"Grid/Level/Box/resolution=[50,{rows}]"))
+            speeds = sorted(there["p.velocity.x [m/s]"])
+            many = len(speeds) // len(alone)
+            self.assertEqual(len(speeds), many * len(alone))
+            self.assertLess(max(abs(one - alone[k // many]) for k, one in enumerate(speeds)), 1e-12)
+            self.assertLess(max(map(abs, there["p.velocity.y [m/s]"])), 1e-12)
+
+
+class LightBodies(SceneTest):
+    def test_shorten_the_steps_instead_of_shaking(self):
+        """A disc much lighter than the gas drifts slowly, and the gas brakes it."""
+        soft = "<bulk_modulus>0.05</bulk_modulus><shear_modulus>0.02</shear_modulus>"
+        text = changed(fsi.scene("rest").read_text(), SAVE_VELOCITY, ("<density>1000<", "<density>0.03<"),
+                       ("<bulk_modulus>10000.0</bulk_modulus>", soft), ("<shear_modulus>1000.0</shear_modulus>", ""),
+                       ("</cylinder>", "</cylinder><velocity>[1e-6,0,0]</velocity>"))
+        scene = self.scene(text)
+        sets = ("Grid/Level/Box/resolution=[25,25,1]", "Grid/Level/Box/upper=[1,1,0.04]")
+        self.assertIn("light bodies", run(scene, *sets).report["time_step_limits"])
+        speeds = last_state(scene, "p.velocity", sets=sets)["p.velocity.x [m/s]"]
+        self.assertLess(max(map(abs, speeds)), 1e-6)
+
+
+class Conduction(SceneTest):
+    def test_along_a_wall_does_not_depend_on_the_row(self):
+        """A wave of temperature along a wall at rest, whose last row of cells is three quarters free. Of first order,
+        as slopes of the flow are 0 beside bodies."""
+        wave = "1+0.2*cos(pi*(x-0.1))"
+        text = changed(fsi.scene("rest").read_text(), ('type="mpmice"', 'type="rmpmice"'),
+                       ('"c.pressure"/>', '"c.pressure"/><save label="c.temperature"/>'),
+                       ("SecondOrder", "FirstOrder"),
+                       ("<lower>[0,0,0]<", "<lower>[0.1,0,0]<"), ("<upper>[1,1,0.02]<", "<upper>[1.1,0.3,0.05]<"),
+                       ("[50,50,1]", "[20,6,1]"), ("<cylinder", "<box"), ("</cylinder>", "</box>"),
+                       ("<radius>0.2</radius>", ""), ("<bottom>[0.5,0.5,-1]</bottom>", "<min>[-1,-1,-1]</min>"),
+                       ("<top>[0.5,0.5,1]</top>", "<max>[2,0.1125,1]</max>"), ("<max>[1,1,1]<", "<max>[2,1,1]<"),
+                       ("<thermal_conductivity>0<", "<thermal_conductivity>1<"),
+                       ("<density>1<", f"<density>1/({wave})<"), ("<temperature>1<", f"<temperature>{wave}<"))
+        found = last_state(self.scene(text), "c.temperature", sets=("Time/maxTime=0.05",))
+        rows = {}
+        for y, kelvin in zip(found["y [m]"], found["c.temperature [K]"]):
+            rows.setdefault(round(y, 3), []).append(kelvin)
+        self.assertGreater(max(rows[.275]) - min(rows[.275]), .1)
+        for y in (.125, .175, .225):
+            self.assertLess(max(abs(one - other) for one, other in zip(rows[y], rows[.275])), 1e-12, y)
 
 
 class Vessel(SceneTest):

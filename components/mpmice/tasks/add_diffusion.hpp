@@ -88,15 +88,17 @@ class DiffusionBeside {
     return std::max(0.5, 1 + middle(cell, axis) - middle(below, axis));
   }
   /// The position along an axis of the middle of a cell's gas, relative to the centre of the cell, in cells. It is
-  /// shifted away from the cell's walls, and towards a small cell with which the cell is merged.
+  /// shifted away from the cell's walls, and towards a small cell with which the cell is merged. Along a wall there is
+  /// no shift: there, differences of round-off between neighbouring cells do not count.
   double middle(const Index<D>& cell, int axis) const {
     const OpenFaces faces = space_.faces(cell, axis);
-    const double walls = faces.wall(0) + faces.wall(1);
-    double middle = walls > 0 ? 0.5 * (1 - cells_.free[cell]) * (faces.wall(0) - faces.wall(1)) / walls : 0;
+    const double filled = 1 - cells_.free[cell], walls = std::max(faces.wall(0) + faces.wall(1), filled);
+    double middle = walls > 0 ? 0.5 * filled * (faces.wall(0) - faces.wall(1)) / walls : 0;
     for (const int side : {0, 1}) {
       if (space_.isAtSide(cell, axis, side) || !(faces.open[side] > 0)) continue;
       const double next = cells_.free[side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis)];
-      if (next < smallFreeVolume && next < cells_.free[cell]) middle += (side == 0 ? -0.5 : 0.5) * next;
+      if (next < smallFreeVolume && next < cells_.free[cell] - offRoundShares)
+        middle += (side == 0 ? -0.5 : 0.5) * next;
     }
     return std::clamp(middle, -0.25, 0.25);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/material.hpp"
-#include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/free_space.hpp"
 
 namespace tushar::mpmice {
 
@@ -107,6 +107,50 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
 /// bodies move only once per step of the gas.
 inline void limitStepOfBodies(const Patch&, double cfl, double stableTimeStep, Minimum& dt) {
   dt.add(cfl * stableTimeStep, "wave speed of bodies");
+}
+
+/// The greatest density of the gas itself on the patch; 0 without gas.
+template <int D>
+double densestGas(const Patch& patch, const GasInCells<D>& cells) {
+  return euler::greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int count, double* rho) {
+    const double *free = &cells.free[first], *held = &cells.held.density[first];
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      const double own = held[i] / free[i];
+      rho[i] = free[i] < leastFreeVolume ? 0.0 : own;
+    }
+  });
+}
+
+/// Computes dt = (rho_b / rho) h / c where gas of the density rho is beside bodies, of which the lightest has the
+/// density rho_b. In a step, the pressure of the gas, which rises by rho c per unit of the speed at which a wall
+/// approaches, must not turn the motion of the wall around. Only bodies lighter than cfl rho get shorter steps.
+/// (Measured: a layer of foam in water is stable up to a dt between 2 and 2.7 times as long, a disc up to 2.5 to 3.3
+/// times.)
+template <int D>
+void limitStepOfLightBodies(const Patch& patch, const std::vector<mpm::solid::Material>& materials,
+                            const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const mpm::solid::Material& material : materials) lightest = std::min(lightest, material.density);
+  if (settings.gas.courant.number * densestGas<D>(patch, cells) <= lightest) return;
+  const Level& level = patch.level();
+  const auto isPartlyFull = [&](const Index<D>& cell) {
+    return cells.free[nearestOnGrid(level, cell)] < wholeFreeVolume;
+  };
+  double perWidth = 0, most = 0;
+  for (int d = 0; d < D; ++d) perWidth = std::max(perWidth, level.inverseSpacing(d));
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (cells.isEmpty(cell)) return;
+    bool isBeside = isPartlyFull(cell);
+    for (int d = 0; d < D && !isBeside; ++d)
+      isBeside = isPartlyFull(cell - Index<D>::unit(d)) || isPartlyFull(cell + Index<D>::unit(d));
+    if (!isBeside) return;
+    const euler::Gas law = lawAt<D>(settings, cells.held, cells.free[cell], cell);
+    const euler::State<D> w = cells.primitive(law, cell);
+    const double rho = w[euler::kDensity];
+    most = std::max(most, rho * std::sqrt(law.soundSpeedSquared(rho, w[euler::kPressure<D>])) * perWidth);
+  });
+  if (most > 0) dt.add(lightest / most, "light bodies");
 }
 
 /// Computes dt for bodies that keep their velocities: cfl times the shorter of the time in which the fastest particle
