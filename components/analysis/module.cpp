@@ -7,6 +7,7 @@
 #include "components/analysis/plane_average.hpp"
 #include "components/analysis/plane_extract.hpp"
 #include "components/analysis/slice.hpp"
+#include "components/analysis/statistics.hpp"
 #include "components/analysis/vorticity.hpp"
 
 namespace tushar::modules {
@@ -15,7 +16,8 @@ simulation::Catalogue analysis() {
   using namespace tushar::analysis;
   return {{},
           {controlVolFluxesKind(), exactSolutionKind(), firstLawThermoKind(), lineExtractKind(), minMaxKind(),
-           particleExtractKind(), planeAverageKind(), planeExtractKind(), sliceKind(), vorticityKind()}};
+           particleExtractKind(), planeAverageKind(), planeExtractKind(), sliceKind(), statisticsKind(),
+           turbulentFluxesKind(), vorticityKind()}};
 }
 
 }  // namespace tushar::modules

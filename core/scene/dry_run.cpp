@@ -95,7 +95,8 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
   DryRun result;
   result.agreements = 1;  // agreement on whether to stop
   Messages messages(grid, table);
-  for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.everyStep}) {
+  for (const tasks::TaskGraph* graph :
+       {&phases.stableTimeStep, &phases.timeAdvance, &phases.afterStep, &phases.everyStep}) {
     result.tasks += static_cast<int>(graph->tasks().size());
     result.placements += static_cast<int>(graph->placements().size());
     messages.add(*graph, result);

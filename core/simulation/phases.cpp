@@ -83,6 +83,12 @@ Names requiredByAll(std::initializer_list<const Pruned*> lists) {
   return names;
 }
 
+/// Those of the names that are in both sets.
+Names among(const Names& a, Names b) {
+  std::erase_if(b, [&](const std::string& name) { return !a.contains(name); });
+  return b;
+}
+
 /// The tasks that mark cells: those of the criteria and those of the component.
 tasks::TaskList estimating(const tasks::TaskList& diagnostics, std::vector<BoundCriterion> criteria,
                            const tasks::TaskList& estimate) {
@@ -116,7 +122,8 @@ Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Ana
   tasks::TaskList refine;
   component.scheduleRefine(refine);
   lists_.refine = tasks::takingOver(refine);
-  for (const auto& analysis : analyses) analysis->schedule(lists_.diagnostics);
+  addAnalyses(analyses);
+  totals_ = totalsAmong(producedBy(lists_.diagnostics.tasks()));
   validateAll();
   noteMaterials();
 }
@@ -125,13 +132,15 @@ void Phases::validateAll() const {
   const Lists& lists = lists_;
   const Names state = producedBy(lists.initialize.tasks());
   const Names withDelT = united(state, decidedBefore(lists.stableTimeStep.tasks()));
+  const Names withSums = united(state, summed_);
   tasks::validate(lists.initialize.tasks(), {});
   tasks::validate(lists.stableTimeStep.tasks(), state);
   tasks::validate(lists.timeAdvance.tasks(), withDelT);
   tasks::validate(lists.carefulAdvance.tasks(), withDelT);
   tasks::validate(lists.nextMaterials.tasks(), state);
-  tasks::validate(lists.diagnostics.tasks(), state);
-  tasks::validate(estimating(lists.diagnostics, {}, lists.errorEstimate).tasks(), state);
+  tasks::validate(lists.diagnostics.tasks(), withSums);
+  tasks::validate(lists.afterStep.tasks(), withSums);
+  tasks::validate(estimating(lists.diagnostics, {}, lists.errorEstimate).tasks(), withSums);
   tasks::validate(lists.refine.tasks(), state);
 }
 
@@ -168,7 +177,7 @@ std::vector<InputProblem> Phases::problemsOf(const std::vector<std::unique_ptr<A
 
 Names Phases::saveable() const {
   Names names;
-  for (const auto* list : {&lists_.initialize, &lists_.timeAdvance, &lists_.diagnostics})
+  for (const auto* list : {&lists_.initialize, &lists_.timeAdvance, &lists_.diagnostics, &lists_.afterStep})
     names.merge(producedBy(list->tasks()));
   std::erase_if(names, isOfRims);
   return names;
@@ -177,7 +186,7 @@ Names Phases::saveable() const {
 void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
   for (const SaveRequest& save : saves) {
     const data::Label* label = nullptr;
-    for (const auto* list : {&lists_.timeAdvance, &lists_.initialize, &lists_.diagnostics})
+    for (const auto* list : {&lists_.timeAdvance, &lists_.initialize, &lists_.diagnostics, &lists_.afterStep})
       if (!label) label = findProduced(list->tasks(), save.label);
     const auto isSameLabel = [&](const SaveRequest& other) { return other.label == save.label; };
     const auto covers = [&](const SaveRequest& other) {
@@ -312,22 +321,24 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
   return wants;
 }
 
+void Phases::takeSaves(const std::vector<SaveRequest>& saves, const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  for (auto problems : {problemsOf(saves), problemsOf(analyses)}) throwIfAny(std::move(problems));
+  sortSaves(named(saves));
+}
+
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid,
                      const std::optional<Location>& smallerSteps) {
-  for (auto problems : {problemsOf(saves), problemsOf(analyses)}) throwIfAny(std::move(problems));
-  sortSaves(named(saves));
+  takeSaves(saves, analyses);
   if (grid.levels() > 1) refuseSavedNodes(analyses);
   prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value());
   const Lists& lists = lists_;
-  const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
-  totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));
+  const Names stepped = namesOfSteps();
   const Names totals = namesOf(totals_);
   const Wants wants = wantsOf(samplesOf(analyses), stepped);
 
   const Names decided = decidedBefore(lists.stableTimeStep.tasks());
-  Names wanted = requiredOfState(lists.timeAdvance.tasks());
-  std::erase_if(wanted, [&](const std::string& name) { return !decided.contains(name); });
+  const Names wanted = among(decided, requiredOfState(lists.timeAdvance.tasks()));
   Pruned stable = prune(lists.stableTimeStep.tasks(), united(wanted, {std::string(data::delT.name)}), false);
   Pruned step = prune(lists.diagnostics.tasks(), wants.everyStep, false);
   Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
@@ -339,12 +350,14 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend, &moves});
   Names always = requiredByAll({&stable, &begin, &refine, &mend, &moves});
   Names atEnd = united(united(read, wants.ofState), tasks::registersOf(lists.timeAdvance));
+  const Pruned sums = addSums(always, atEnd);
   addNeeded(lists.carefulAdvance, {&always, &atEnd});
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
   Pruned advance = prune(lists.timeAdvance.tasks(), atEnd, true);
   if (smallerSteps) refuseSmallerSteps({&stable, &advance}, *smallerSteps);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
-  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend, &moves}, grid, regrid.where);
+  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend, &moves, &sums}, grid,
+                regrid.where);
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);
@@ -358,6 +371,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), grid, table);
   startTotals = tasks::TaskGraph("totals of the start", std::move(begin), grid, table);
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), grid, table);
+  afterStep = tasks::TaskGraph("sums over steps", sums, grid, table);
   refinement = tasks::TaskGraph("refinement", std::move(refine), grid, table);
   refined = tasks::TaskGraph("new finer cells", std::move(mend), grid, table);
   refluxing = refluxingGraph(lists.reflux, stepped, grid, table);

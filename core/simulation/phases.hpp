@@ -42,6 +42,7 @@ class Phases {
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
   tasks::TaskGraph carefulAdvance;  ///< steps after a particle has been removed (CarefulSteps); empty: timeAdvance
   tasks::TaskGraph nextMaterials;   ///< finds the particles that move to other materials; empty: none ever does
+  tasks::TaskGraph afterStep;       ///< what analysis modules add up over steps
   tasks::TaskGraph refinement;      ///< marks cells where criteria require finer ones
   tasks::TaskGraph refined;         ///< corrects the values of newly refined cells
   tasks::TaskGraph refluxing;       ///< refluxing on a level, after the smaller steps of the next finer level
@@ -74,9 +75,17 @@ class Phases {
  private:
   void printLevels(std::ostream& out) const;
   struct Lists {
-    tasks::TaskList initialize, stableTimeStep, timeAdvance, carefulAdvance, nextMaterials, diagnostics, errorEstimate,
-        refine, reflux;
+    tasks::TaskList initialize, stableTimeStep, timeAdvance, carefulAdvance, nextMaterials, diagnostics, afterStep,
+        errorEstimate, refine, reflux;
   };
+  /// Collects the tasks of the analysis modules, and what they add up over steps.
+  void addAnalyses(const std::vector<std::unique_ptr<Analysis>>& analyses);
+  /// Sorts what is saved. Throws InputError if no task computes a saved or sampled label.
+  void takeSaves(const std::vector<SaveRequest>& saves, const std::vector<std::unique_ptr<Analysis>>& analyses);
+  /// Names of the variables that exist after the start and after each step.
+  tasks::Names namesOfSteps() const;
+  /// The tasks for those sums over steps that are read `always` or `atEnd`; adds what they need to `atEnd`.
+  tasks::Pruned addSums(const tasks::Names& always, tasks::Names& atEnd) const;
   /// Stores the number of levels and how they step, and adds the tasks that several levels need.
   void prepareLevels(int levels, bool refluxes, bool bySmallerSteps);
   /// Adds the tasks that keep totals constant across levels (refluxing).
@@ -102,6 +111,7 @@ class Phases {
   Lists lists_;
   std::string about_careful_steps_;
   std::vector<std::string> state_, lasting_, saved_globals_, materials_;
+  tasks::Names summed_;  ///< the variables that analysis modules add up over steps
   std::vector<SaveRequest> saved_fields_;
   std::vector<ConservedTotal> totals_;
   std::vector<Reported> reported_;

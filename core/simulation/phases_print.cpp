@@ -42,7 +42,7 @@ void Phases::printSchedule(std::ostream& out) const {
     graph->printLeftOut(out);
   }
   printLevels(out);
-  for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report, &refinement, &refined})
+  for (const tasks::TaskGraph* graph : {&afterStep, &everyStep, &everyOutput, &report, &refinement, &refined})
     if (!graph->tasks().empty()) graph->print(out);
   out << "diagnostics that are never run\n";
   for (const tasks::LeftOut& task : everyStep.leftOut()) {

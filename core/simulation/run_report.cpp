@@ -137,14 +137,14 @@ void RunReport::addProgress(Report& report) {
 void RunReport::addTasks(Report& report) {
   const Phases& phases = run_.phases;
   for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.carefulAdvance,
-                                        &phases.nextMaterials, &phases.everyStep}) {
+                                        &phases.nextMaterials, &phases.afterStep, &phases.everyStep}) {
     if (graph == &phases.carefulAdvance && run_.scheduler.relocation().lost().removed == 0) continue;
     for (const tasks::CompiledTask& task : graph->tasks()) {
       report.tasks.push_back({task.task.name, task.seconds});
       report.kept.push_back(task.task.name);
       report.exchange += task.exchangeSeconds;
     }
-    if (graph == &phases.everyStep) continue;
+    if (graph == &phases.everyStep || graph == &phases.afterStep) continue;
     for (const tasks::LeftOut& task : graph->leftOut()) report.leftOut.push_back(task);
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "core/collect/gather.hpp"
 #include "core/report/error_norms.hpp"
@@ -146,6 +147,7 @@ void Simulation::distributeAtStart() {
 
 void Simulation::resume() {
   checkpoints_.resume();
+  beginSums();
   outputs_.passMilestones();
   run_.setTimeOfAnalyses();  // the earlier run has taken the samples that were due up to now
 }
@@ -157,6 +159,7 @@ void Simulation::initialize() {
     initializeOnce();
   } while (regridder_.refinedStart());
   refuseCoarseParticles();
+  beginSums();
   run_.warehouse.releaseFreeMemory();  // what particles are made with is not what steps need
   bool hasParticles = false;
   for (int m = 0; m < run_.materials(); ++m) hasParticles = hasParticles || run_.table.find(data::positionName, m) >= 0;
@@ -213,6 +216,7 @@ void Simulation::step() {
   TimeControl& time = run_.time;
   const long removed = run_.scheduler.relocation().lost().removed;
   advance();
+  addToSums();
   level_steps_ ? report_.noteStep(level_steps_->steps()) : report_.noteStep();
   if (run_.progress.due()) run_.progress.live(time.step(), time.time(), time.delT(), run_.problem.time.maxTime);
   regridder_.regridIfDue();
@@ -256,6 +260,26 @@ void Simulation::moveBetweenMaterials() {
   if (graph.tasks().empty()) return;
   run_.scheduler.run(graph, {run_.time.step(), run_.time.time()});
   tasks::moveBetweenMaterials(run_.warehouse, run_.materials(), nextMaterial.name, run_.phases.lasting());
+}
+
+void Simulation::beginSums() {
+  using data::Generation;
+  for (const int number : run_.phases.afterStep.results()) {
+    if (run_.warehouse.isHeld(Generation::old, number)) continue;
+    run_.warehouse.allocateGrid(Generation::old, number);
+    for (const grid::Patch& patch : run_.problem.grid->patches()) {
+      const data::Variable variable = run_.warehouse.variable(Generation::old, number, patch.id());
+      std::memset(variable.values, 0, variable.stored.size() * run_.table[number].label->bytes);
+    }
+  }
+}
+
+void Simulation::addToSums() {
+  const auto isDue = [&](const auto& analysis) { return analysis->isDueAfterStep(run_.time.time()); };
+  const auto& analyses = run_.problem.analyses;
+  if (run_.phases.afterStep.tasks().empty() || std::none_of(analyses.begin(), analyses.end(), isDue)) return;
+  run_.scheduler.run(run_.phases.afterStep, {run_.time.step(), run_.time.time()});
+  run_.scheduler.commit(run_.phases.afterStep);
 }
 
 data::Minimum Simulation::stableStep() {

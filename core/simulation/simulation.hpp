@@ -58,6 +58,10 @@ class Simulation {
   /// Advances the state by one time step, which is repeated with a shorter one if a task requires it.
   void advance();
   void moveBetweenMaterials();
+  /// Sets to 0 the sums over steps that have no values yet.
+  void beginSums();
+  /// Adds the current state to the sums over steps.
+  void addToSums();
   /// The longest stable step for the current state, and the limit that determines it.
   data::Minimum stableStep();
   /// Tries a step of length `dt` [s]; if a task requires a shorter one, returns the factor.

@@ -35,7 +35,8 @@ OVERRIDES = {
                        "'burgersWave', 'controlVolFluxes', 'energyBudget', 'exactRiemann', 'exactSolution', "
                        "'firstLawThermo', 'gresho', 'isentropicVortex', 'lineExtract', 'manufacturedError', "
                        "'massProjection', 'minMax', 'noh', 'particleExtract', 'planeAverage', 'planeExtract', 'sedov', "
-                       "'simpleWave', 'slice', 'tabulated' or 'vorticity' (did you mean 'exactRiemann'?)"),
+                       "'simpleWave', 'slice', 'statistics', 'tabulated', 'turbulentFluxes' or 'vorticity' (did you "
+                       "mean 'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",
