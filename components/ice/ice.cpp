@@ -44,9 +44,7 @@ void Ice<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) co
 template <int D>
 void Ice<D>::scheduleInitialize(TaskList& tasks) const {
   euler::Euler<D>::scheduleInitialize(tasks);
-  for (const auto& one : scalars_)
-    tasks.perPatch("ice::initializeScalar", initializeScalar<D>, with(one.get()), requiresNew(euler::c::density),
-                   computes(one->held()));
+  for (const auto& one : scalars_) scheduleStartOfScalar<D>(tasks, *one, euler::c::density);
 }
 
 template <int D>
@@ -56,9 +54,7 @@ void Ice<D>::scheduleScalars(TaskList& tasks) const {
     tasks.perPatch("ice::carryScalar", carryScalar<D>, with(one.get()), with(this->settings().gas), with(hasSlopes),
                    all<ScalarBefore<D>>(one.get()), startTime(), requiresOld(delT), computes(one->held()),
                    keepsFlux(one->held()));
-    if (!one->settings().interior.empty())
-      tasks.perPatch("ice::raiseScalar", raiseScalar<D>, with(one.get()), requiresNew(euler::c::density),
-                     modifies(one->held()));
+    scheduleChangesOfScalar<D>(tasks, *one, euler::c::density);
   }
 }
 
@@ -122,7 +118,7 @@ std::vector<std::string> Ice<D>::foreignLabels() const {
 template <int D>
 simulation::OtherNames Ice<D>::otherNames() const {
   simulation::OtherNames names = uintahsNames;
-  for (const auto& one : scalars_) names.push_back(one->names());
+  for (const auto& one : scalars_) one->addNames(names);
   return names;
 }
 

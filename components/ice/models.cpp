@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "components/ice/decay_input.hpp"
 #include "components/ice/gas_schemas.hpp"
 #include "core/input/refuse.hpp"
 
@@ -58,12 +59,13 @@ struct RegionList {
   std::vector<ScalarRegion> list;
 };
 struct ScalarConstants {
-  double diffusivity = 0;
+  double diffusivity = 0, constantRate = 0, linearRate = 0;
 };
 struct ScalarSection {
   Location where;
   std::string name;
   ScalarConstants constants;
+  std::optional<DecaySection> decay;
   RegionList start;
   std::optional<RegionList> interior;
 };
@@ -78,8 +80,9 @@ const Schema<ScalarSection>& scalarSchema() {
         .ignored("AMR_Refinement_Criteria",
                  "a <Variable> in <Refinement_Criteria_Thresholds> determines where cells are finer")
         .ignored("initialize_diffusion_knob", "there is no diffusion before the first step");
-    input::refuseOtherValues(tags, "rateOfChange0", {"0", "0.0", "0.", "0.0e0"}, "use <interiorSources>");
-    input::refuseOtherValues(tags, "rateOfChange1", {"0", "0.0", "0.", "0.0e0"}, "use <interiorSources>");
+    tags.value("rateOfChange0", &ScalarConstants::constantRate, 0, "1/s", "how fast the scalar falls, until it is 0")
+        .value("rateOfChange1", &ScalarConstants::linearRate, 0, "1/s",
+               "how fast the scalar falls, per value of the scalar");
     return tags;
   }();
   static const Schema<RegionList> start =
@@ -96,9 +99,9 @@ const Schema<ScalarSection>& scalarSchema() {
         .section("constants", &ScalarSection::constants, constants)
         .requiredSection("initialization", &ScalarSection::start, start)
         .section("interiorSources", &ScalarSection::interior, interior)
+        .section("exponentialDecay", &ScalarSection::decay, decaySchema())
         .ignored("test_conservation", "totalSum_scalar-NAME is computed if it is saved");
     input::refuseSwitch(tags, "reinitializeDomain", "a run starts with <initialization>");
-    input::refuseTag(tags, "exponentialDecay", "a decaying scalar is the initial one times a function of time");
     return tags;
   }();
   return schema;
@@ -182,11 +185,14 @@ void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnos
   const std::size_t before = diagnostics.size();
   ScalarSection read = passiveScalarSchema().read(*given, diagnostics).scalar;
   if (diagnostics.size() > before) return;
+  const ScalarDecay decay = decayOf(read.constants.constantRate, read.constants.linearRate, read.decay, diagnostics);
+  if (diagnostics.size() > before) return;
   const auto isIt = [&](const ScalarSettings& other) { return other.name == read.name; };
   if (std::any_of(models.scalars.begin(), models.scalars.end(), isIt))
     return diagnostics.error(*given, fmt::format("the name '{}' is given twice", read.name));
   models.scalars.push_back({.where = read.where,
                             .name = read.name,
+                            .decay = decay,
                             .diffusivity = read.constants.diffusivity,
                             .start = std::move(read.start.list),
                             .interior = read.interior.value_or(RegionList()).list});

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/ice/scalar_decay.hpp"
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
 #include "core/input/geometry.hpp"
@@ -31,6 +32,7 @@ struct ScalarRegion {
 struct ScalarSettings {
   Location where;  ///< in the scene
   std::string name;
+  ScalarDecay decay = {};              ///< how it falls with time
   double diffusivity = 0;              ///< diffusivity [m²/s]
   std::vector<ScalarRegion> start;     ///< initial values; where regions overlap, the last one applies
   std::vector<ScalarRegion> interior;  ///< sources: regions in which the scalar increases in each step
@@ -41,8 +43,12 @@ class CarriedScalar {
  public:
   explicit CarriedScalar(ScalarSettings settings)
       : settings_(std::move(settings)),
-        words_{"scalar-" + settings_.name, "c.scalar-" + settings_.name, "c.held-scalar-" + settings_.name,
-               "totalSum_scalar-" + settings_.name, "c.unshared-scalar-" + settings_.name} {}
+        words_{"scalar-" + settings_.name,
+               "c.scalar-" + settings_.name,
+               "c.held-scalar-" + settings_.name,
+               "totalSum_scalar-" + settings_.name,
+               "c.unshared-scalar-" + settings_.name,
+               "c.scalar-" + settings_.name + "_expDecayCoef"} {}
   CarriedScalar(const CarriedScalar&) = delete;
   CarriedScalar& operator=(const CarriedScalar&) = delete;
 
@@ -52,10 +58,15 @@ class CarriedScalar {
   /// Like held(), but before small cells next to bodies are merged.
   const CellLabel<double>& unshared() const { return unshared_; }
   const ReductionLabel<Sum>& total() const { return total_; }
+  /// The coefficient c2 of the decay.
+  const CellLabel<double>& decayCoefficient() const { return decay_coefficient_; }
   /// The label for boundary conditions.
   const BoundaryLabel<double>& atSides() const { return atSides_; }
-  /// The name of the variable in Uintah, and its name in Tushar.
-  std::pair<std::string, std::string> names() const { return {words_[0], words_[1]}; }
+  /// Adds the names of its variables in Uintah, each with the name in Tushar.
+  void addNames(std::vector<std::pair<std::string, std::string>>& names) const {
+    names.emplace_back(words_[0], words_[1]);
+    if (settings_.decay.isExponential) names.emplace_back(words_[5].substr(2), words_[5]);
+  }
   /// Adds Uintah's variables of a scalar that no task computes here.
   void addForeignLabels(std::vector<std::string>& labels) const {
     labels.push_back("mag_grad_" + words_[0]);
@@ -66,11 +77,12 @@ class CarriedScalar {
 
  private:
   ScalarSettings settings_;
-  std::array<std::string, 5> words_;
+  std::array<std::string, 6> words_;
   BoundaryLabel<double> atSides_{words_[0]};
   CellLabel<double> value_{words_[1], "1", "a quantity per mass that is transported with the gas"};
   CellLabel<double> held_{words_[2], "kg/m^3", "the scalar times density"};
   CellLabel<double> unshared_{words_[4], "kg/m^3", "the scalar times density, before small cells are merged"};
+  CellLabel<double> decay_coefficient_{words_[5], "1", "coefficient c2 of the decay of a scalar"};
   ReductionLabel<Sum> total_{words_[3], "kg", "amount of the scalar in all cells"};
 };
 

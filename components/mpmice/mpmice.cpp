@@ -67,9 +67,7 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   else
     tasks.perPatch("mpmice::initializeGases", initializeGases<D>, with(settings_), requiresNew(c::freeVolume, 1),
                    all<NewContent<D>>(settings_.gases.size()));
-  for (const auto& one : scalars_)
-    tasks.perPatch("ice::initializeScalar", ice::initializeScalar<D>, with(one.get()), requiresNew(c::density),
-                   computes(one->held()));
+  for (const auto& one : scalars_) ice::scheduleStartOfScalar<D>(tasks, *one, c::density);
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::measureDiffusivity", measureDiffusivity<D>, with(settings_), gasIn(readsNew, {}),
                    computes(total::diffusivityAtStart));
@@ -207,9 +205,7 @@ void GasAround<D>::shareScalars(TaskList& tasks) const {
   for (const auto& one : scalars_) {
     tasks.perPatch("mpmice::shareScalar", shareScalar<D>, with(settings_), all<Unshared<D>>(std::size_t{0}),
                    requiresNew(one->unshared(), 2), requiresNew(c::density), computes(one->held()));
-    if (!one->settings().interior.empty())
-      tasks.perPatch("ice::raiseScalar", ice::raiseScalar<D>, with(one.get()), requiresNew(c::density),
-                     modifies(one->held()));
+    ice::scheduleChangesOfScalar<D>(tasks, *one, c::density);
   }
 }
 
@@ -322,7 +318,7 @@ simulation::OtherNames MpmIce<D>::otherNames() const {
   const simulation::OtherNames ofSolids = solids_->otherNames();
   names.insert(names.end(), ice::uintahsNames.begin(), ice::uintahsNames.end());
   names.insert(names.end(), ofSolids.begin(), ofSolids.end());
-  for (const auto& one : gas_->scalars()) names.push_back(one->names());
+  for (const auto& one : gas_->scalars()) one->addNames(names);
   return names;
 }
 

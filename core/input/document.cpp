@@ -84,7 +84,7 @@ FoundFile findFile(const std::string& path, const std::string& scene) {
 bool isPath(const pugi::xml_node& xml) {
   const std::string_view name = xml.name(), parent = xml.parent().name();
   return name == "file" || name == "PrescribedDeformationFile" || name == "InsertParticlesFile" ||
-         name == "cz_filename" || (parent == "contact" && name == "filename") ||
+         name == "cz_filename" || ((parent == "contact" || parent == "c2") && name == "filename") ||
          ((parent == "tri" || parent == "line_segment") && name == "name");
 }
 

@@ -272,6 +272,27 @@ void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const
   }
 }
 
+/// Adds the tasks that set a scalar at the start.
+template <int D>
+void scheduleStartOfScalar(TaskList& tasks, const CarriedScalar& scalar, const CellLabel<double>& density) {
+  tasks.perPatch("ice::initializeScalar", initializeScalar<D>, with(&scalar), requiresNew(density),
+                 computes(scalar.held()));
+  if (const ScalarDecay& decay = scalar.settings().decay; decay.isExponential)
+    tasks.perPatch("ice::initializeDecay", initializeDecay<D>, with(decay), computes(scalar.decayCoefficient()));
+}
+
+/// Adds the tasks that change a scalar other than by transport: first it falls, then the sources raise it.
+template <int D>
+void scheduleChangesOfScalar(TaskList& tasks, const CarriedScalar& scalar, const CellLabel<double>& density) {
+  const ScalarDecay& decay = scalar.settings().decay;
+  if (decay.acts())
+    tasks.perPatch("ice::decayScalar", decayScalar<D>, with(decay), requiresOld(delT), requiresNew(density),
+                   when(decay.coefficients != nullptr, requiresOld(scalar.decayCoefficient())),
+                   modifies(scalar.held()));
+  if (!scalar.settings().interior.empty())
+    tasks.perPatch("ice::raiseScalar", raiseScalar<D>, with(&scalar), requiresNew(density), modifies(scalar.held()));
+}
+
 /// Computes dt = cfl / (4 sum_d D / h_d²), so that diffusion and flow together create no new extrema.
 template <int D>
 void limitScalarDiffusion(const Patch& patch, double diffusivity, double cfl, CellView<const double>, Minimum& dt) {
