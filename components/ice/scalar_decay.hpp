@@ -34,13 +34,25 @@ struct ScalarDecay {
   bool acts() const { return constantRate != 0 || linearRate != 0 || isExponential; }
 };
 
-/// Solves df/dt = -r0 - k f exactly over a time dt [s]: f' = f exp(-k dt) - r0 (1 - exp(-k dt)) / k. The part r0 ends
-/// where f reaches 0.
-inline double fallen(double f, double r0, double k, double dt) {
-  const double lost = k == 0 ? r0 * dt : -r0 * std::expm1(-k * dt) / k;
-  const double after = f * std::exp(-k * dt) - lost;
-  return r0 > 0 && f >= 0 ? std::max(after, 0.0) : after;
-}
+/// The exact solution of df/dt = -r0 - k f over a time dt [s]: f' = f exp(-k dt) - r0 (1 - exp(-k dt)) / k. The part r0
+/// ends where f reaches 0.
+struct Fall {
+  double kept, lost;  ///< f' = kept f - lost
+  bool isBounded;     ///< whether it ends at 0
+
+  Fall(double r0, double k, double dt)
+      : kept(k == 0 ? 1 : std::exp(-k * dt)),
+        lost(r0 == 0  ? 0
+             : k == 0 ? r0 * dt
+                      : -r0 * std::expm1(-k * dt) / k),
+        isBounded(r0 > 0) {}
+
+  /// The new f times `mass`, from the old one times `mass`.
+  double operator()(double held, double mass = 1) const {
+    const double after = kept * held - lost * mass;
+    return isBounded && held >= 0 ? std::max(after, 0.0) : after;
+  }
+};
 
 /// Sets the coefficients c2 of the cells of a patch. Throws InputError if the file has none for one of them.
 template <int D>
@@ -67,11 +79,11 @@ void initializeDecay(const Patch& patch, const ScalarDecay& decay, CellView<doub
 template <int D>
 void decayScalar(const Patch& patch, const ScalarDecay& decay, double dt, CellView<const double> density,
                  std::optional<CellView<const double>> coefficient, CellView<double> held) {
+  const auto fallWith = [&](double c2) { return Fall(decay.constantRate, decay.linearRate + decay.factor * c2, dt); };
+  const Fall everywhere = fallWith(decay.coefficient);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!(density[cell] > 0)) return;
-    const double c2 = coefficient ? (*coefficient)[cell] : decay.coefficient;
-    const double k = decay.linearRate + decay.factor * c2;
-    held[cell] = density[cell] * fallen(held[cell] / density[cell], decay.constantRate, k, dt);
+    const Fall fall = coefficient ? fallWith((*coefficient)[cell]) : everywhere;
+    held[cell] = fall(held[cell], density[cell]);
   });
 }
 

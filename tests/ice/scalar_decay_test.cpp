@@ -7,6 +7,8 @@
 namespace tushar::ice {
 namespace {
 
+double fallen(double f, double r0, double k, double dt) { return Fall(r0, k, dt)(f); }
+
 TEST(ScalarDecay, IsTheClosedForm) {
   for (const double k : {-2.0, 1e-9, 0.7, 40.0})
     for (const double r0 : {-3.0, 0.0, 0.2})
@@ -15,6 +17,11 @@ TEST(ScalarDecay, IsTheClosedForm) {
         EXPECT_NEAR(fallen(5, r0, k, dt), exact, 1e-15 * (5 + std::abs(r0 / k)) * 4) << k << ' ' << r0 << ' ' << dt;
       }
   EXPECT_DOUBLE_EQ(fallen(5, 0.5, 0, 2), 4);
+}
+
+TEST(ScalarDecay, OfAnAmountIsThatOfTheValueTimesTheMass) {
+  EXPECT_NEAR(Fall(0.3, 2, 0.1)(5 * 1.2, 1.2), 1.2 * fallen(5, 0.3, 2, 0.1), 2e-15);
+  EXPECT_EQ(Fall(0.3, 2, 0.1)(0, 0), 0);
 }
 
 /// The formula with r0 / k would have lost all digits.
