@@ -40,9 +40,10 @@ class Analysis {
   virtual bool takesSeveralBoxes() const { return false; }
   /// Adds diagnostic tasks. They read the current state as the old one.
   virtual void schedule(tasks::TaskList& tasks) const = 0;
-  /// Adds tasks that run after each step, with the state after the step as the old one, and that follow the diagnostics:
-  /// they may read those as new. What they compute, variables of cells without a material, is kept until the next step,
-  /// when they read it as old, and is part of checkpoints; at the start of a run it is 0. So sums over time are made.
+  /// Adds tasks that run after each step, with the state after the step as the old one, and that follow the
+  /// diagnostics: they may read those as new. What they compute, variables of cells without a material, is kept until
+  /// the next step, when they read it as old, and is part of checkpoints; at the start of a run it is 0. So sums over
+  /// time are made.
   virtual void scheduleAfterStep(tasks::TaskList&) const {}
   /// Whether the tasks of scheduleAfterStep have something to do after a step that ends at this time [s].
   virtual bool isDueAfterStep(double /*time*/) const { return false; }
