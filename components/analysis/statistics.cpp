@@ -167,6 +167,11 @@ class Statistics : public simulation::Analysis {
   }
 
  private:
+  /// The name of its first variable, which no other module has.
+  std::string firstName() const {
+    const auto& list = settings_.variables.list;
+    return list.empty() ? "" : withoutPrefix(list.front().label);
+  }
   const SamplesBetween& between() const { return settings_; }
   static bool isVectorOfAxes(const data::Label& label) { return label.isVector && label.components == D; }
   [[noreturn]] static void refuse(const Averaged& one, const std::string& sentence) {
@@ -220,7 +225,7 @@ class Statistics : public simulation::Analysis {
   std::set<std::string> names_;
   std::vector<SampledVariable> variables_;
   std::vector<std::unique_ptr<SummedVariable>> summed_;
-  OwnLabel<double> count_{"samples_" + settings_.name, "1", "number of samples of statistics over time"};
+  OwnLabel<double> count_{"samples_" + firstName(), "1", "number of samples of statistics over time"};
 };
 
 AnalysisKind kindOf(const std::string& name, const std::string& sentence, const Schema<StatisticsSettings>& schema) {

@@ -67,14 +67,18 @@ class Statistics(ModuleTest):
         whole = tushar.open(archive)
         start, stop = ((whole.times[whole.steps.index(step)] + whole.times[whole.steps.index(step + 1)]) / 2
                        for step in (3, 7))
-        tags = module("statistics", ('label="c.density"',), "", start, stop)
-        part = tushar.open(self.run_in("part", self.scene(tags, ("mean_density", "sum_density")), *SMALL))
+        tags = (module("statistics", ('label="c.density"',), "", start, stop) +
+                module("statistics", ('label="c.pressure"',), "", stop))
+        names = ("mean_density", "sum_density", "mean_pressure")
+        part = tushar.open(self.run_in("part", self.scene(tags, names), *SMALL))
         density = self.samples(archive, "c.density")
         self.assertEqual(np.abs(part[part.steps.index(3)]["c.mean_density"][:]).max(), 0)
         np.testing.assert_allclose(part[part.steps.index(5)]["c.sum_density"][:], density[3:5].sum(axis=0), rtol=1e-14)
         for step in 7, 10:
             np.testing.assert_allclose(part[part.steps.index(step)]["c.mean_density"][:], density[3:7].mean(axis=0),
                                        rtol=1e-14)
+        np.testing.assert_allclose(part[-1]["c.mean_pressure"][:], self.samples(archive, "c.pressure", 8).mean(axis=0),
+                                   rtol=1e-14)
 
     def test_covariances_with_the_velocity(self):
         scene = self.scene(FLUXES, ("covariance_temperature", "covariance_velocity", "mean_Qu_Qv_Qw_temperature",
