@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/base/lanes.hpp"
+#include "core/base/limiters.hpp"
+
 namespace tushar::euler {
 
 /// The Courant number of a scene, and what it limits: dt times the sum over axes of (|v_d| + c) / h_d, or dt times the
@@ -24,9 +27,11 @@ class CrossingRate {
     ofAxis_ = 1;
   }
 
-  [[gnu::always_inline]] double operator()(double sum, double greatest) const {
-    const double fraction = ofSum_ * sum, one = ofAxis_ * greatest;
-    return fraction > one ? fraction : one;
+  /// Numbers are double or Lanes.
+  template <class Number>
+  [[gnu::always_inline]] Number operator()(const Number& sum, const Number& greatest) const {
+    const Number fraction = ofSum_ * sum, one = ofAxis_ * greatest;
+    return select(fraction > one, fraction, one);
   }
   /// Of the rates along(d) of all axes [1/s].
   template <class Along>

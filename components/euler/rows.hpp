@@ -229,24 +229,37 @@ template <class Visit>
     for (std::ptrdiff_t i = 0; i < count; i += lanes) visit(Lanes(0.0), std::min<std::ptrdiff_t>(i, count - lanes));
 }
 
-/// The greatest of numbers of the cells of a box, or 0 if none is positive. Calls `compute(first, count, numbers)` for
-/// parts of rows, which sets a number for each of their cells; so the loop over these uses vector registers.
-template <int D, class Compute>
-double greatestInRows(const Box& box, Compute&& compute) {
-  constexpr int most = 256, lanes = 8;
-  std::array<double, most> numbers{};
-  std::array<double, lanes> greatest{};
-  forEachRow<D>(box, [&](Index<D> first, int cells) {
-    for (int done = 0; done < cells; done += most, first[0] += most) {
-      const int count = std::min(most, cells - done), end = (count + lanes - 1) / lanes * lanes;
-      compute(first, count, numbers.data());
-      for (int i = count; i < end; ++i) numbers[static_cast<std::size_t>(i)] = 0;
-      for (std::size_t i = 0; i < static_cast<std::size_t>(end); i += lanes)
-        for (std::size_t k = 0; k < lanes; ++k)
-          greatest[k] = numbers[i + k] > greatest[k] ? numbers[i + k] : greatest[k];
+/// Consecutive cells of a row of `count` cells, one per lane, beginning with the cell `first`. Lanes beyond the end of
+/// a short row repeat its last cell.
+struct LanesOfRow {
+  std::ptrdiff_t first, count;
+
+  /// The numbers of the cells, from a row that has one per cell.
+  [[gnu::always_inline]] Lanes at(const double* row) const { return vectorsAt<1>(row)[0]; }
+  /// The vectors of the cells, from a row that has D numbers per cell.
+  template <int D>
+  [[gnu::always_inline]] std::array<Lanes, D> vectorsAt(const double* row) const {
+    if (count >= Lanes::count) return unpack<D>(row + first * D);
+    std::array<Lanes, D> all;
+    for (int d = 0; d < D; ++d)
+      all[d] = Lanes::of([&](std::ptrdiff_t lane) { return row[std::min(lane, count - 1) * D + d]; });
+    return all;
+  }
+};
+
+/// The greatest of numbers of the cells of a box, or 0 if none is positive. `numbersOf(first, count)` returns a
+/// function for a row of cells: it returns the numbers of the cells of a LanesOfRow.
+template <int D, class NumbersOf>
+double greatestInRows(const Box& box, NumbersOf&& numbersOf) {
+  Lanes most = 0;
+  forEachRow<D>(box, [&](const Index<D>& row, int count) {
+    auto numbers = numbersOf(row, count);
+    for (std::ptrdiff_t i = 0; i < count; i += Lanes::count) {
+      const std::ptrdiff_t last = std::max(count - Lanes::count, 0);
+      most = max(most, numbers(LanesOfRow{std::min(i, last), count}));
     }
   });
-  return *std::max_element(greatest.begin(), greatest.end());
+  return greatest(most);
 }
 
 }  // namespace tushar::euler

@@ -245,6 +245,16 @@ TEST(ComputeStableTimeStep, AddsTheSpeedsOfTheAxes) {
   EXPECT_DOUBLE_EQ(box.stableStep(0.5), 0.5 / ((3 + 1) / 0.1 + (0.5 + 1) / 0.05));
 }
 
+TEST(ComputeStableTimeStep, FollowsFromTheFastestCellWhereverItStands) {
+  for (int cells = 1; cells < 20; ++cells)
+    for (int fastest = 0; fastest < cells; ++fastest) {
+      GasBox<1> box(closedBox(1, cells), [&](const Vec<1>& x) {
+        return State<1>{1.4, static_cast<int>(x[0] * cells) == fastest ? -3.0 : 1.0, 1};
+      });
+      EXPECT_DOUBLE_EQ(box.stableStep(0.5), 0.5 / (4.0 * cells)) << cells << " cells, the fastest is " << fastest;
+    }
+}
+
 TEST(ComputeStableTimeStep, NamesTheCellWhosePressureIsLost) {
   GasBox<1> box(closedBox(1, 300), sodGas);
   box.energy[270] = -1;

@@ -40,31 +40,27 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const Courant& co
   std::array<double, D> perWidth;
   double widths = 0;
   for (int d = 0; d < D; ++d) widths += perWidth[d] = patch.level().inverseSpacing(d);
-  const double most = greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int count, double* rate) {
-    const double *rho = rowOf(density, first, count), *energy = rowOf(totalEnergy, first, count);
-    const double* m = rowOf(momentum, first, count)->data();
-    double bad = 0;
-#pragma GCC ivdep
-    for (int i = 0; i < count; ++i) {
-      const double inverse = 1 / rho[i];
-      double squared = 0, sum = 0;
-      for (int d = 0; d < D; ++d) {
-        squared += m[i * D + d] * m[i * D + d];
-        sum += std::abs(m[i * D + d]) * perWidth[d];
+  Lanes::Mask isFine = Lanes(0) < Lanes(1);
+  const double most = greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int count) {
+    const double *density0 = rowOf(density, first, count), *energy0 = rowOf(totalEnergy, first, count);
+    const double* momentum0 = rowOf(momentum, first, count)->data();
+    return [ =, &isFine ](const LanesOfRow& cells) __attribute__((always_inline)) {
+      const Lanes rho = cells.at(density0), inverse = 1 / rho;
+      const std::array<Lanes, D> m = cells.template vectorsAt<D>(momentum0);
+      Lanes squared = 0, sum = 0;
+      for (std::size_t d = 0; d < D; ++d) {
+        squared += m[d] * m[d];
+        sum += abs(m[d]) * perWidth[d];
       }
-      const double p = stiffened.pressure(rho[i], energy[i] - 0.5 * squared * inverse) + stiffened.pInfinity;
-      const double least = rho[i] < p ? rho[i] : p;
-      bad = least > 0 ? bad : 1.0;
-      const double sound = std::sqrt(stiffened.gamma * p * inverse);
-      double greatest = 0;
-      for (int d = 0; d < D; ++d) {
-        const double one = (std::abs(m[i * D + d]) * inverse + sound) * perWidth[d];
-        greatest = one > greatest ? one : greatest;
-      }
-      rate[i] = crossing(sum * inverse + sound * widths, greatest);
-    }
-    if (bad != 0) refuseBroken<D, const double>(patch, gas, {density, momentum, totalEnergy}, nullptr);
+      const Lanes p = stiffened.pressure(rho, cells.at(energy0) - 0.5 * squared * inverse) + stiffened.pInfinity;
+      isFine &= (rho > 0) & (p > 0);
+      const Lanes sound = sqrt(stiffened.gamma * p * inverse);
+      Lanes greatest = 0;
+      for (std::size_t d = 0; d < D; ++d) greatest = max(greatest, (abs(m[d]) * inverse + sound) * perWidth[d]);
+      return crossing(sum * inverse + sound * widths, greatest);
+    };
   });
+  if (!all(isFine)) refuseBroken<D, const double>(patch, gas, {density, momentum, totalEnergy}, nullptr);
   if (most > 0) dt.add(courant.number / most, "CFL");
 }
 

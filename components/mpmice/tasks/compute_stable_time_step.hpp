@@ -39,36 +39,31 @@ std::optional<double> fastestRateInRows(const Patch& patch, const euler::Stiffen
                                         const euler::CrossingRate<D>& crossing, const GasInCells<D>& cells) {
   std::array<double, D> perWidth;
   double widths = 0;
-  bool isPossible = true;
+  Lanes::Mask isImpossible{};
   for (int d = 0; d < D; ++d) widths += perWidth[d] = patch.level().inverseSpacing(d);
-  const double most = euler::greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int count, double* rate) {
+  const double most = euler::greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int) {
     const double *free = &cells.free[first], *held = &cells.held.density[first];
-    const double *energy = &cells.held.totalEnergy[first], *m = cells.held.momentum[first].data();
-    double bad = 0;
-#pragma GCC ivdep
-    for (int i = 0; i < count; ++i) {
-      const double isOpen = free[i] < leastFreeVolume ? 0.0 : 1.0, hasGas = held[i] > 0 ? isOpen : 0.0;
-      const double share = 1 / free[i], rho = held[i] * share, inverse = 1 / rho;
-      double squared = 0, sum = 0;
-      for (int d = 0; d < D; ++d) {
-        squared += (m[i * D + d] * share) * (m[i * D + d] * share);
-        sum += std::abs(m[i * D + d] * share) * perWidth[d];
+    const double *energy = &cells.held.totalEnergy[first], *momentum = cells.held.momentum[first].data();
+    return [ =, &gas, &isImpossible ](const euler::LanesOfRow& row) __attribute__((always_inline)) {
+      const Lanes density = row.at(held), space = row.at(free);
+      const Lanes::Mask hasGas = (density > 0) & ~(space < leastFreeVolume);
+      const Lanes share = 1 / space, rho = density * share, inverse = 1 / rho;
+      std::array<Lanes, D> m = row.template vectorsAt<D>(momentum);
+      Lanes squared = 0, sum = 0;
+      for (std::size_t d = 0; d < D; ++d) {
+        m[d] *= share;
+        squared += m[d] * m[d];
+        sum += abs(m[d]) * perWidth[d];
       }
-      const double stiff = gas.pressure(rho, energy[i] * share - 0.5 * squared * inverse) + gas.pInfinity;
-      const double impossible = stiff > 0 ? 0.0 : hasGas;
-      bad = impossible > 0 ? 1.0 : bad;
-      const double sound = std::sqrt(gas.gamma * stiff * inverse);
-      double greatest = 0;
-      for (int d = 0; d < D; ++d) {
-        const double one = (std::abs(m[i * D + d] * share) * inverse + sound) * perWidth[d];
-        greatest = one > greatest ? one : greatest;
-      }
-      const double fastest = crossing(sum * inverse + sound * widths, greatest);
-      rate[i] = hasGas > 0 ? fastest : 0.0;
-    }
-    isPossible &= bad == 0;
+      const Lanes stiff = gas.pressure(rho, row.at(energy) * share - 0.5 * squared * inverse) + gas.pInfinity;
+      isImpossible |= hasGas & ~(stiff > 0);
+      const Lanes sound = sqrt(gas.gamma * stiff * inverse);
+      Lanes greatest = 0;
+      for (std::size_t d = 0; d < D; ++d) greatest = max(greatest, (abs(m[d]) * inverse + sound) * perWidth[d]);
+      return select(hasGas, crossing(sum * inverse + sound * widths, greatest), 0);
+    };
   });
-  return isPossible ? std::optional(most) : std::nullopt;
+  return !any(isImpossible) ? std::optional(most) : std::nullopt;
 }
 
 /// Computes dt = cfl / r, where r is the greatest CrossingRate of the gas from (|v_d| + c) / h_d along each axis.
