@@ -107,13 +107,12 @@ inline void limitStepOfBodies(const Patch&, double cfl, double stableTimeStep, M
 /// The greatest density of the gas itself on the patch; 0 without gas.
 template <int D>
 double densestGas(const Patch& patch, const GasInCells<D>& cells) {
-  return euler::greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int count, double* rho) {
+  return euler::greatestInRows<D>(patch.cells(), [&](const Index<D>& first, int) {
     const double *free = &cells.free[first], *held = &cells.held.density[first];
-#pragma GCC ivdep
-    for (int i = 0; i < count; ++i) {
-      const double own = held[i] / free[i];
-      rho[i] = free[i] < leastFreeVolume ? 0.0 : own;
-    }
+    return [=](const euler::LanesOfRow& row) {
+      const Lanes space = row.at(free);
+      return select(space < leastFreeVolume, 0, row.at(held) / space);
+    };
   });
 }
 
