@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/analysis/moments.hpp"
@@ -44,7 +45,7 @@ void countSample(const Patch& patch, const SamplesBetween& between, double time,
 /// A value of a cell as a vector of its N numbers.
 inline Vec<1> numbersOf(double value) { return Vec<1>(value); }
 template <int N>
-const Vec<N>& numbersOf(const Vec<N>& value) {
+Vec<N> numbersOf(const Vec<N>& value) {
   return value;
 }
 /// The same as a number, or as a vector along x, y, z.
@@ -116,7 +117,7 @@ void deriveMoment(const Patch& patch, const Derived& which, CellView<const doubl
     if (which.power == 2 && !which.isCentral) value += mean.cwiseProduct(mean);
     if (which.isTotal) value *= n;
     if constexpr (data::Stored<T>::isVector)
-      result[cell] = value;
+      result[cell] = std::move(value);
     else
       result[cell] = value[0];
   });

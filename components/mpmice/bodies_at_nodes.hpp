@@ -29,13 +29,17 @@ struct BodyAtFaces {
 /// but not in it, does not move the wall.
 ///
 /// A node on a side of the grid that the face meets has only half of the mass that it would have inside, and belongs to
-/// half as many faces. So its mass counts twice there, and a plane wall moves as one.
+/// half as many faces. So its mass counts twice there, and a plane wall moves as one. So does the mass of a node on a
+/// symmetry plane in front of which the face is, at a distance of a cell: half of it is beyond the plane.
 template <int D>
 class BodiesAtNodes {
  public:
   using Records = std::vector<BodyAtFaces<D>>;
 
-  BodiesAtNodes(const Level& level, const Records& records) : level_(&level), records_(&records) {}
+  BodiesAtNodes(const Level& level, const Records& records) : level_(&level), records_(&records) {
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) is_mirror_[d][side] = !level.isPeriodic(d) && level.isSymmetry(d, side);
+  }
 
   /// The nodes on the grid that belong to the cells on both sides of a cell's lower face along an axis.
   Box nodesAt(const Index<D>& cell, int axis) const {
@@ -122,21 +126,24 @@ class BodiesAtNodes {
   static double numberIn(const mpm::solid::NodeRecord& record, int lane) {
     return reinterpret_cast<const double*>(&record)[lane];
   }
-  /// How many times the mass of a node counts at a face: twice for each axis along the face at whose ends it is.
-  double multiplicity(const Index<D>& node, int axis) const {
+  /// How many times the mass of a node counts at the lower face of a cell: twice for each axis along the face at whose
+  /// ends the node is, and twice if the face is in front of a symmetry plane on which the node is.
+  double multiplicity(const Index<D>& cell, int axis, const Index<D>& node) const {
+    const Box& grid = level_->cells();
     double times = 1;
-    for (int d = 0; d < D; ++d)
-      if (d != axis && !level_->isPeriodic(d) &&
-          (node[d] == level_->cells().lower[d] || node[d] == level_->cells().upper[d]))
-        times *= 2;
+    for (int d = 0; d < D; ++d) {
+      const bool isLower = node[d] == grid.lower[d], isUpper = node[d] == grid.upper[d];
+      const bool isAcross = (isLower && is_mirror_[d][0]) || (isUpper && is_mirror_[d][1]);
+      if (d == axis ? isAcross && cell[d] != node[d] : !level_->isPeriodic(d) && (isLower || isUpper)) times *= 2;
+    }
     return times;
   }
   /// Whether the nodes of a face may have a multiplicity other than 1.
-  bool meetsSide(const Index<D>& cell, int axis) const {
+  bool meetsSide(const Index<D>& cell) const {
     bool meets = false;
     for (int d = 0; d < D; ++d)
-      meets |= d != axis && !level_->isPeriodic(d) &&
-               (cell[d] <= level_->cells().lower[d] || cell[d] >= level_->cells().upper[d] - 1);
+      meets |= !level_->isPeriodic(d) &&
+               (cell[d] <= level_->cells().lower[d] + 1 || cell[d] >= level_->cells().upper[d] - 1);
     return meets;
   }
   /// Calls `visit(node, record, mass, multiplicity)` for the nodes of a body that have mass, which is multiplied by the
@@ -144,13 +151,13 @@ class BodiesAtNodes {
   template <class Visit>
   void forEachAt(const Index<D>& cell, int axis, std::size_t body, Visit&& visit) const {
     const auto& records = (*records_)[body].records;
-    const bool meets = D > 1 && meetsSide(cell, axis);
+    const bool meets = meetsSide(cell);
     forEachRow<D>(nodesAt(cell, axis), [&](Index<D> node, int count) {
       const mpm::solid::NodeRecord* record = &records[node];
       for (int i = 0; i < count; ++i, ++node[0], ++record) {
         const double m = numberIn(*record, mpm::solid::lane::mass);
         if (!(m > 0)) continue;
-        const double times = meets ? multiplicity(node, axis) : 1;
+        const double times = meets ? multiplicity(cell, axis, node) : 1;
         visit(node, *record, times * m, times);
       }
     });
@@ -215,6 +222,7 @@ class BodiesAtNodes {
 
   const Level* level_;
   const Records* records_;
+  std::array<std::array<bool, 2>, D> is_mirror_{};  ///< whether the sides are symmetry planes
 };
 
 }  // namespace tushar::mpmice

@@ -5,8 +5,9 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import gas_and_bodies as fsi
 from fsi_test import DISC, changed, rigid
-from solids import SceneTest, archive_of, columns
+from solids import SceneTest, archive_of, columns, last_state
 from uda import FolderTest
 
 PRESSURE, UP = "c.pressure [Pa]", "c.velocity.y [m/s]"
@@ -55,6 +56,27 @@ class Mirror(SceneTest):
         pressure, up, greatest = self.asymmetry(block[:start] + moving + block[end:])
         self.assertLess(max(pressure, up), 1e-12)
         self.assertGreater(greatest, .1)
+
+
+class Quarter(SceneTest):
+    def test_between_symmetry_planes_is_that_of_the_whole(self):
+        """A block, two cells wide, that the gas compresses from all sides. Linear functions do not reach beyond planes."""
+        whole = changed(fsi.scene("rest").read_text(), ("<outputInitTimestep/>", '<save label="p.velocity"/>'),
+                        ("<lower>[0,0,0]<", "<lower>[-0.5,-0.5,0]<"), ("<upper>[1,1,0.02]<", "<upper>[0.5,0.5,0.05]<"),
+                        ("[50,50,1]", "[20,20,1]"), ("<cylinder", "<box"), ("</cylinder>", "</box>"),
+                        ("<bottom>[0.5,0.5,-1]</bottom>", "<min>[-0.05,-0.05,-1]</min>"),
+                        ("<top>[0.5,0.5,1]</top>", "<max>[0.05,0.05,1]</max>"), ("<radius>0.2</radius>", ""),
+                        ("<density>1000<", "<density>3<"), ("0.0</bulk_modulus>", "</bulk_modulus>"),
+                        ("0.0</shear_modulus>", "</shear_modulus>"), ("<min>[0,0,0]</min>", "<min>[-1,-1,0]</min>"),
+                        ("<temperature>1<", "<temperature>2<"), (">gimp<", ">linear<"))
+        quarter = changed(whole, ("<lower>[-0.5,-0.5,0]<", "<lower>[0,0,0]<"), ("[20,20,1]", "[10,10,1]"))
+        found = [last_state(self.scene(text), "p.velocity", sets=("Time/maxTime=0.1",)) for text in (whole, quarter)]
+        there = [{(int(80 * x), int(80 * y)): v for x, y, v in zip(*list(one.values())[:2], one["p.velocity.x [m/s]"])
+                  if min(x, y) > 0} for one in found]
+        self.assertEqual(len(there[0]), 16)
+        self.assertEqual(sorted(there[0]), sorted(there[1]))
+        self.assertLess(max(abs(v - there[1][place]) for place, v in there[0].items()), 1e-12)
+        self.assertGreater(max(map(abs, there[0].values())), .01)
 
 
 class Hole(FolderTest):

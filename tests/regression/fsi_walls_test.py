@@ -60,8 +60,8 @@ class PlaneProblems(SceneTest):
         for rows, particles in ("4,1", "4,4,1"), ("3,2", "4,2,2"):
             y, z = map(int, rows.split(","))
             upper = f"Grid/Level/Box/upper=[1,{.02 * y},{.02 * z if z > 1 else 1}]"
-            there = last_state(self.scene(text.replace("<res>[4,1,1]</res>", f"<res>[{particles}]</res>")), "p.velocity",
-                               sets=(short, upper, f"Grid/Level/Box/resolution=[50,{rows}]"))
+            scene = self.scene(text.replace("<res>[4,1,1]</res>", f"<res>[{particles}]</res>"))
+            there = last_state(scene, "p.velocity", sets=(short, upper, f"Grid/Level/Box/resolution=[50,{rows}]"))
             speeds = sorted(there["p.velocity.x [m/s]"])
             many = len(speeds) // len(alone)
             self.assertEqual(len(speeds), many * len(alone))
