@@ -60,7 +60,8 @@ class Mirror(SceneTest):
 
 class Quarter(SceneTest):
     def test_between_symmetry_planes_is_that_of_the_whole(self):
-        """A block, two cells wide, that the gas compresses from all sides. Linear functions do not reach beyond planes."""
+        """The gas compresses a block, two cells wide, from all sides. Linear functions do not reach beyond planes. One
+        step: later, cells at a plane open that hold a part of the block."""
         whole = changed(fsi.scene("rest").read_text(), ("<outputInitTimestep/>", '<save label="p.velocity"/>'),
                         ("<lower>[0,0,0]<", "<lower>[-0.5,-0.5,0]<"), ("<upper>[1,1,0.02]<", "<upper>[0.5,0.5,0.05]<"),
                         ("[50,50,1]", "[20,20,1]"), ("<cylinder", "<box"), ("</cylinder>", "</box>"),
@@ -70,13 +71,14 @@ class Quarter(SceneTest):
                         ("0.0</shear_modulus>", "</shear_modulus>"), ("<min>[0,0,0]</min>", "<min>[-1,-1,0]</min>"),
                         ("<temperature>1<", "<temperature>2<"), (">gimp<", ">linear<"))
         quarter = changed(whole, ("<lower>[-0.5,-0.5,0]<", "<lower>[0,0,0]<"), ("[20,20,1]", "[10,10,1]"))
-        found = [last_state(self.scene(text), "p.velocity", sets=("Time/maxTime=0.1",)) for text in (whole, quarter)]
+        found = [last_state(self.scene(text), "p.velocity", sets=("Time/max_Timesteps=1",)) for text in (whole, quarter)]
         there = [{(int(80 * x), int(80 * y)): v for x, y, v in zip(*list(one.values())[:2], one["p.velocity.x [m/s]"])
                   if min(x, y) > 0} for one in found]
         self.assertEqual(len(there[0]), 16)
         self.assertEqual(sorted(there[0]), sorted(there[1]))
-        self.assertLess(max(abs(v - there[1][place]) for place, v in there[0].items()), 1e-12)
-        self.assertGreater(max(map(abs, there[0].values())), .01)
+        most = max(map(abs, there[0].values()))
+        self.assertGreater(most, 1e-4)
+        self.assertLess(max(abs(v - there[1][place]) for place, v in there[0].items()), 1e-12 * most)
 
 
 class Hole(FolderTest):
