@@ -71,7 +71,8 @@ class Quarter(SceneTest):
                         ("0.0</shear_modulus>", "</shear_modulus>"), ("<min>[0,0,0]</min>", "<min>[-1,-1,0]</min>"),
                         ("<temperature>1<", "<temperature>2<"), (">gimp<", ">linear<"))
         quarter = changed(whole, ("<lower>[-0.5,-0.5,0]<", "<lower>[0,0,0]<"), ("[20,20,1]", "[10,10,1]"))
-        found = [last_state(self.scene(text), "p.velocity", sets=("Time/max_Timesteps=1",)) for text in (whole, quarter)]
+        one_step = ("Time/max_Timesteps=1",)
+        found = [last_state(self.scene(text), "p.velocity", sets=one_step) for text in (whole, quarter)]
         there = [{(int(80 * x), int(80 * y)): v for x, y, v in zip(*list(one.values())[:2], one["p.velocity.x [m/s]"])
                   if min(x, y) > 0} for one in found]
         self.assertEqual(len(there[0]), 16)
