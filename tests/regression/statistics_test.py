@@ -102,19 +102,14 @@ class Statistics(ModuleTest):
         np.testing.assert_allclose(last["c.mean_temperature2"][:], (temperature**2).mean(axis=0), rtol=1e-13)
         self.assertEqual(means.shape, last["c.covariance_temperature"].shape)
 
-    def bits(self, archive, names=NAMES):
+    def files_of(self, archive):
+        """The bits of all statistics at the end, which are in the archive instead of files of their own."""
         last = tushar.open(archive)[-1]
-        return {name: last[f"c.{name}"][:].tobytes() for name in names}
+        return {name: last[f"c.{name}"][:].tobytes() for name in NAMES}
 
     def test_any_layout_and_a_restart_have_the_same_bits(self):
-        scene = self.scene(STATISTICS, NAMES)
-        expected = self.bits(self.run_in("one", scene, *SMALL, "-nthreads", "1"))
-        for name, (ranks, patches) in {"patches": (1, "[2,3,1]"), "ranks": (3, "[2,2,2]")}.items():
-            archive = self.run_in(name, scene, *SMALL, "--set", f"Grid/Level/Box/patches={patches}", ranks=ranks)
-            self.assertEqual(self.bits(archive), expected, name)
-        cut = self.run_in("cut", scene, *SMALL, "--set", "Time/max_Timesteps=7")
-        self.well(sus("-restart", cut, "-t", "4", "--set", "Time/max_Timesteps=10"))
-        self.assertEqual(self.bits(cut), expected, "after a restart")
+        moves = lambda found: self.assertTrue(any(found["variance_velocity"]))
+        self.assert_same_bytes_on_any_layout(self.scene(STATISTICS, NAMES), moves)
 
     def test_the_run_is_the_same_with_and_without(self):
         with_it = self.well(sus(self.scene(STATISTICS, NAMES), "--output", self.folder / "a", *SMALL, options=()))
