@@ -67,11 +67,11 @@ void ParticleSet::widen(std::size_t row, const Span& cells, const ParticleRange&
                             : ParticleRange{std::min(ghosts_.first, places.first), std::max(ghosts_.last, places.last)};
 }
 
-void ParticleSet::openGhostRows(const grid::Box& box, const ParticleSet& theirs) {
+void ParticleSet::openGhostRows(const grid::Box& box, const ParticleSet& theirs, const Index3& shift) {
   if (theirs.owned_ > 0)
     grid::forEach<3>(box.rowStarts(), [&](const Index3& cell) {
-      const Span span = theirs.own_spans_[theirs.rowOf(cell)];
-      if (span.first < box.upper[0] && span.last > cell[0]) ranges_.open(rowOf(cell));
+      const Span span = theirs.own_spans_[theirs.rowOf(cell - shift)];
+      if (span.first + shift[0] < box.upper[0] && span.last + shift[0] > cell[0]) ranges_.open(rowOf(cell));
     });
 }
 

@@ -126,14 +126,15 @@ class ParticleSet {
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
 
-  /// Makes space for the particles of another set in `box` as ghosts. Afterwards several threads may call addGhosts,
-  /// each for its own set.
-  void openGhostRows(const grid::Box& box, const ParticleSet& theirs);
+  /// Makes space in `box` for ghosts: for the particles of a set that `shift` moves there. Afterwards several threads
+  /// may call addGhosts, each for its own set, and ghosts added in `box` move no ranges in memory.
+  void openGhostRows(const grid::Box& box, const ParticleSet& theirs, const Index3& shift = {});
   /// Declares those particles of the set `theirs` that are in `box` as ghosts; `theirs` begins `offset` positions after
   /// this set in memory.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
   /// Declares copies, which are stored from index `to` on, as the ghosts of `cell`. The originals are the particles
-  /// `there` of the patch `patch`, in its cell `cell - shift`.
+  /// `there` of the patch `patch`, in its cell `cell - shift`. If they are particles of this set, which then has a
+  /// periodic image of itself, openGhostRows must have made space before.
   void addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to);
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }

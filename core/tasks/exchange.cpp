@@ -320,12 +320,14 @@ void Exchange::placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* me
         set.addCopies(cell, copy.from, range, copy.shift,
                       warehouse_->placeCopies(fill.set, material, patches[place].id(), range.size()));
       };
-      if (messages)
+      if (messages) {
         for (const auto& [cell, range] : messages->takeCounts(copy)) add(cell, range);
-      else
-        warehouse_->particles(fill.set, material, copy.from)
-            .forEachOccupied<3>(copy.box.shifted(Index3{} - copy.shift),
-                                [&](const Index3& cell, const ParticleRange& range) { add(cell + copy.shift, range); });
+        continue;
+      }
+      const ParticleSet& from = warehouse_->particles(fill.set, material, copy.from);  // may be the same set
+      set.openGhostRows(copy.box, from, copy.shift);
+      from.forEachOccupied<3>(copy.box.shifted(Index3{} - copy.shift),
+                              [&](const Index3& cell, const ParticleRange& range) { add(cell + copy.shift, range); });
     }
   }
 }

@@ -235,9 +235,9 @@ TEST(BufferPool, GivesUpWhatAWholeStepDidNotNeed) {
 }
 
 /// A particle set on a grid of 5 x 4 x 3 cells, some of them without particles.
-ParticleSet someCells(const grid::Grid& grid) {
+ParticleSet someCells(const grid::Grid& grid, int reach = 0) {
   ParticleSet set;
-  set.reset(grid.patches().front(), 0);
+  set.reset(grid.patches().front(), reach);
   int count = 0;
   grid::forEach<3>(grid.level().cells(), [&](const Index3& cell) {
     const int first = count;
@@ -280,6 +280,37 @@ TEST(ParticleSet, IsEmptyAfterAReset) {
   grid::forEach<3>(level.cells(), [&](const Index3& cell) { EXPECT_TRUE(set.in(cell).empty()); });
   set.forEachOccupied<3>(level.cells(), [](const Index3&, const ParticleRange&) { ADD_FAILURE(); });
   EXPECT_TRUE(set.hasNone());
+}
+
+/// A patch that is its own periodic image reads and writes the same table: see Exchange::placeGhostCopies.
+TEST(ParticleSet, KeepsItsRangesWherePlacesForItsOwnPeriodicImagesAreOpen) {
+  grid::Domain domain;
+  domain.resolution = {{5, 4, 3}};
+  domain.upper = {5, 4, 3};
+  domain.periodic = {{1, 1, 1}};
+  const grid::Grid grid(domain);
+  const grid::Level& level = grid.level();
+  ParticleSet set = someCells(grid, 1);
+  const int owned = set.owned();
+  for (const Index3& shift : {Index3{{0, -4, 0}}, Index3{{5, 0, 3}}}) {
+    grid::Box images = level.cells().shifted(shift);
+    for (int d = 0; d < 3; ++d) {
+      images.lower[d] = std::max(images.lower[d], -1);
+      images.upper[d] = std::min(images.upper[d], level.cells().upper[d] + 1);
+    }
+    set.openGhostRows(images, set, shift);
+    const ParticleRange* const before = set.row(Index3{});
+    int to = owned, added = 0;
+    grid::forEach<3>(images, [&](const Index3& cell) {
+      const ParticleRange& there = set.in(cell - shift);
+      set.addCopies(cell, 0, there, shift, to);
+      EXPECT_EQ(set.in(cell).size(), set.in(cell - shift).size());
+      to += set.in(cell).size();
+      added += set.in(cell).size();
+    });
+    EXPECT_GT(added, 0);
+    EXPECT_EQ(set.row(Index3{}), before) << "ranges moved while the set was read";
+  }
 }
 
 TEST(View, RefusesWhatIsOutsideNamingTheLabel) {
