@@ -1,7 +1,6 @@
 #pragma once
 
-#include <memory>
-#include <vector>
+#include <array>
 
 #include "components/mpm/gas/conserving/footprint.hpp"
 
@@ -41,7 +40,6 @@ class BoxSums {
       : first_(visited.lower[0] - overhang),
         length_(static_cast<std::size_t>(blocks * Lanes::count)),
         size_(N * length_),
-        past_(history * rows),
         finished_(AlignedNumbers(size_)) {
     for (int d = 1; d < D; ++d) lowest_[d] = visited.lower[d];
     if constexpr (D > 1) waiting_[0] = AlignedNumbers(rows / width * slots * pairs * size_);
@@ -55,15 +53,14 @@ class BoxSums {
     for (int d = 1; d < D; ++d) row_[static_cast<std::size_t>(d)] = static_cast<std::size_t>(row[d] - lowest_[d]);
     emptyFor_.fill(history);
     for (std::size_t k = 0; k < rows; ++k) ways_[k] = wayOf(k);
-    std::fill(past_.begin(), past_.end(), typename decltype(past_)::value_type{});
+    past_.fill({});
     place_ = 0;
   }
   /// Begins the next block of a row; `most` is the largest number of particles in one of its cells.
   void beginBlock(int most) {
     most_ = most;
     isReached_.fill(false);
-    if (most > 1) sums_.resize(rows);
-    if (most > 2) lost_.assign(rows, {});
+    if (most > 2) lost_.fill({});
   }
   /// Adds terms to the sums in a row of nodes or cells, the k-th of the footprints of a batch: `terms(n)` to sum n.
   /// Lanes without a particle bring 0.
@@ -267,11 +264,11 @@ class BoxSums {
   std::size_t length_;  ///< length of a row in memory
   std::size_t size_;    ///< numbers of a row, with all sums
   /// Terms of the rows in earlier blocks, in turn; not of the lowest nodes, which no later cell shares.
-  std::vector<std::array<std::array<Lanes, width - 1>, N>> past_;
-  std::vector<std::array<Terms, N>> sums_, lost_;  ///< over several particles per cell, and their rounding errors
-  std::array<bool, rows> isReached_;               ///< whether a particle of the block has reached a row
-  std::array<std::size_t, rows> emptyFor_;         ///< number of blocks in which no particle has reached a row
-  std::size_t oldest_ = 0, place_ = 0;             ///< the oldest of the past blocks; place of the block in its row
+  std::array<std::array<std::array<Lanes, width - 1>, N>, history * rows> past_;
+  std::array<std::array<Terms, N>, rows> sums_, lost_;  ///< over several particles per cell, and their rounding errors
+  std::array<bool, rows> isReached_;                    ///< whether a particle of the block has reached a row
+  std::array<std::size_t, rows> emptyFor_;              ///< number of blocks in which no particle has reached a row
+  std::size_t oldest_ = 0, place_ = 0;  ///< the oldest of the past blocks; place of the block in its row
   int most_ = 0;
   Index<D> lowest_;
   std::array<std::size_t, D> row_{};  ///< distance of the visited row from the first one along the axes but the first

@@ -12,9 +12,9 @@ namespace {
 /// Harmonic mean; 0 if the signs differ.
 Lanes harmonicMean(Lanes a, Lanes b) { return select(a * b > 0, 2 * a * b / (a + b), 0); }
 
-/// The shock sensor: 0 if the velocity difference is below .05 c, and 1 if it is above .15 c.
-Lanes sensor(Lanes difference, Lanes soundSpeed) {
-  return select(soundSpeed > 0, clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0), 1);
+/// The shock sensor: 0 if the velocity difference is below .05 c, and 1 if it is above .15 c or if c is 0.
+Lanes sensor(Lanes differenceOverSpeed, Lanes soundSpeed) {
+  return select(soundSpeed > 0, clamp(10 * (differenceOverSpeed - 0.05), 0.0, 1.0), 1);
 }
 
 /// Computes the velocity differences over cells along each axis, and their sum Delta. A cell at the rim of the grid
@@ -91,26 +91,27 @@ CellState shockViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, Lanes 
 
 CellState smoothViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, const Compression& compression,
                           const Viscosity& viscosity) {
-  const Lanes difference = compression.difference, s = sensor(-difference, soundSpeed);
+  const Lanes difference = compression.difference, ratio = difference / soundSpeed, s = sensor(-ratio, soundSpeed);
   const Lanes j = -(s * difference + (1 - s) * max(difference, min(0.0, compression.smooth)));
   const Lanes compressed = density * j * (viscosity.quadratic * j + viscosity.linear * soundSpeed);
   const Lanes z = clamp(compression.smooth, 0.0, difference) * clamp(compression.nearby / difference, 0.0, 1.0);
   const Lanes expanding = -min(viscosity.linear * density * soundSpeed * z, 0.4 * pressure);
   return {pressure, select(difference < 0, compressed, select(difference > 0, expanding, 0)),
-          sensor(abs(difference), soundSpeed)};
+          sensor(abs(ratio), soundSpeed)};
 }
 
 template <int D, class Scheme>
 void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, CellView<const double> mass,
                      CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,
                      CellView<double> pressure, CellView<double> artificial, CellView<double> shock) {
-  const double volume = patch.level().cellVolume(), h = patch.level().minSpacing();
+  const double perVolume = 1 / patch.level().cellVolume(), h = patch.level().minSpacing();
+  const double pressureOfEnergy = (gas.gamma - 1) * perVolume, squareOfEnergy = gas.soundSpeedSquared(1);
   constexpr bool isSmooth = Scheme::transfer == Transfer::affineFlip;
   std::optional<Differences<D>> differences;
   if (isSmooth) differences.emplace(patch, gradient);
   forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
-    const Lanes m = load(mass, cells), p = (gas.gamma - 1) * load(internalEnergy, cells) / volume;
-    const Lanes rho = m / volume, c = sqrt(gas.gamma * p / rho);
+    const Lanes m = load(mass, cells), energy = load(internalEnergy, cells);
+    const Lanes p = pressureOfEnergy * energy, rho = perVolume * m, c = sqrt(squareOfEnergy * energy / m);
     CellState state;
     if constexpr (isSmooth)
       state = smoothViscosity(p, rho, c, compressionOf<D>(*differences, cells.first), viscosity);

@@ -35,9 +35,10 @@ class Parts {
     const auto all = sum<2>([&](const Index<D>& k) __attribute__((always_inline)) {
       return std::array{mass(k), internal(k)};
     });
+    const Lanes perMass = 1 / all[0], perInternal = 1 / all[1];
     footprint.forEachPart([&](const Index<D>& k, const Lanes&) __attribute__((always_inline)) {
-      mass(k) /= all[0];
-      internal(k) /= all[1];
+      mass(k) *= perMass;
+      internal(k) *= perInternal;
     });
   }
 

@@ -164,7 +164,8 @@ struct Contained {
     const LanesVec<D> square = inverse * vectorOf(Sums::square);
     for (int d = 0; d < D; ++d) {
       const LanesVec<D> moment = inverse * vectorOf(Sums::moment + static_cast<std::size_t>(d) * D);
-      modes.col(gradientColumn(d)) = (moment - offset[d] * velocity) / (square[d] - offset[d] * offset[d]);
+      const Lanes perVariance = 1 / (square[d] - offset[d] * offset[d]);
+      modes.col(gradientColumn(d)) = perVariance * (moment - offset[d] * velocity);
     }
     std::size_t field = Sums::modes;
     for (std::size_t a = 1; a < std::size_t{1} << D; ++a) {

@@ -2,27 +2,76 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "core/base/lanes.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
+/// Memory that a thread has used for AlignedNumbers, kept for the next ones if it is small.
+class KeptNumbers {
+ public:
+  struct Block {
+    std::unique_ptr<double[]> memory;
+    std::size_t size = 0;
+  };
+
+  static KeptNumbers& ofThread() {
+    static thread_local KeptNumbers kept;
+    return kept;
+  }
+  /// A block of at least `size` numbers: the smallest kept one if it is not much larger, or a new one. What is kept is
+  /// cleared first: other data, read as numbers, may be denormal, with which processors are slow.
+  Block take(std::size_t size) {
+    auto best = blocks_.end();
+    for (auto it = blocks_.begin(); it != blocks_.end(); ++it)
+      if (it->size >= size && it->size <= 2 * size && (best == blocks_.end() || it->size < best->size)) best = it;
+    if (best == blocks_.end()) {
+      const bool isKept = size <= largest;
+      return {isKept ? std::make_unique<double[]>(size) : std::make_unique_for_overwrite<double[]>(size), size};
+    }
+    Block found = std::exchange(*best, std::move(blocks_.back()));
+    blocks_.pop_back();
+    return found;
+  }
+  void giveBack(Block&& block) {
+    if (block.size <= largest && blocks_.size() < most) blocks_.push_back(std::move(block));
+  }
+
+ private:
+  static constexpr std::size_t largest = 1 << 12, most = 8;  ///< numbers in a block that is kept; blocks
+
+  KeptNumbers() { blocks_.reserve(most); }
+
+  std::vector<Block> blocks_;
+};
+
 /// Numbers with the values that the memory happens to contain. The first one begins a cache line, so that whole
 /// registers of them never lie in two lines.
 class AlignedNumbers {
  public:
   AlignedNumbers() = default;
-  explicit AlignedNumbers(std::size_t count) : memory_(std::make_unique_for_overwrite<double[]>(count + Lanes::count)) {
-    void* start = memory_.get();
+  explicit AlignedNumbers(std::size_t count) : block_(KeptNumbers::ofThread().take(count + Lanes::count)) {
+    void* start = block_.memory.get();
     std::size_t bytes = (count + Lanes::count) * sizeof(double);
     first_ = static_cast<double*>(std::align(alignof(Lanes), count * sizeof(double), start, bytes));
+  }
+  AlignedNumbers(AlignedNumbers&& other) noexcept { *this = std::move(other); }
+  AlignedNumbers& operator=(AlignedNumbers&& other) noexcept {
+    std::swap(block_, other.block_);
+    std::swap(first_, other.first_);
+    return *this;
+  }
+  ~AlignedNumbers() {
+    if (block_.memory) KeptNumbers::ofThread().giveBack(std::move(block_));
   }
   double& operator[](std::size_t k) const { return first_[k]; }
   double* get() const { return first_; }
 
  private:
-  std::unique_ptr<double[]> memory_;
+  KeptNumbers::Block block_;
   double* first_ = nullptr;
 };
 

@@ -70,6 +70,7 @@ struct Span {
   std::array<Lanes, most + 1> lever;   ///< * products of weight and arm [m]
   std::array<Lanes, most + 1> atLower, atUpper;  ///< * weights of the nodes in the values at the ends
   Lanes inertia;                                 ///< * sum of weight times arm² [m²]
+  Lanes perLength;                               ///< * inverse of the length [1/m]
   Lanes lower, upper;                            ///< ends of the interval [m]
 
   /// Constructs intervals along kernel axis `d`; `cell` is the cell of the centre. They are cut off at the boundary of
@@ -96,7 +97,7 @@ struct Span {
     const Lanes offset = origin - 0.5 * (lower + upper);
     withExtent<Overhang>(
         below, above, [&](auto extent) __attribute__((always_inline)) {
-          distribute(extent, from, to, values);
+          distribute(extent, from, to, along.inverse, values);
           measureArms(extent, offset, along.h, values);
         });
   }
@@ -150,11 +151,13 @@ struct Span {
     return select(abs(x - node) < 1e-12, node, x);
   }
   /// Computes parts and weights of the interval from `from` to `to`, measured in cells from the middle of the cell that
-  /// contains the interval's centre.
+  /// contains the interval's centre; `inverse` is that of the width of a cell.
   template <int Below, int Cells, SpanValues Values>
-  [[gnu::always_inline]] void distribute(Extent<Below, Cells>, const Lanes& from, const Lanes& to, Computes<Values>) {
+  [[gnu::always_inline]] void distribute(Extent<Below, Cells>, const Lanes& from, const Lanes& to, double inverse,
+                                         Computes<Values>) {
     constexpr bool isAll = Values == SpanValues::all;
     const Lanes scale = 1 / (to - from);
+    if constexpr (isAll) perLength = scale * inverse;
     Lanes start = -0.5 - Below, end = start, carried = 0;
 #pragma GCC unroll 8
     for (int k = 0; k < Cells; ++k) {

@@ -243,7 +243,7 @@ struct NewVelocity {
       for (std::size_t d = 0; d < D; ++d)
         for (std::size_t part = 0; part < D; ++part)
           modes(static_cast<int>(part), gradientColumn(static_cast<int>(d))) =
-              ((taken.upper[d][part] + 0) - (taken.lower[d][part] + 0)) / footprint.along[d].length();
+              ((taken.upper[d][part] + 0) - (taken.lower[d][part] + 0)) * footprint.along[d].perLength;
       affine = max(0.0, 0.5 * (taken.square - mean.squaredNorm()));
     } else {
       mean = v + gain;

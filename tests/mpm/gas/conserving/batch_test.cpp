@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <utility>
+
 #include "tests/mpm/gas/conserving/boxes.hpp"
 
 namespace tushar::mpm::gas::conserving {
@@ -70,6 +73,22 @@ TEST(AlignedNumbers, BeginACacheLine) {
     numbers[count - 1] = 1;
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&numbers[0]) % alignof(Lanes), 0u);
   }
+}
+
+TEST(AlignedNumbers, BeginACacheLineAndUseMemoryOfEarlierOnesOfThisThread) {
+  const double* before = nullptr;
+  {
+    const AlignedNumbers first(1000);
+    before = first.get();
+    const AlignedNumbers other(1000);
+    EXPECT_NE(other.get(), before);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(before) % alignof(Lanes), 0u);
+  }
+  AlignedNumbers again(900), moved = std::move(again);
+  const AlignedNumbers small(10);
+  EXPECT_NE(small.get(), before) << "much smaller ones do not take it";
+  const AlignedNumbers next(1000);
+  EXPECT_TRUE(moved.get() == before || next.get() == before);
 }
 
 }  // namespace tushar::mpm::gas::conserving
