@@ -9,7 +9,8 @@ namespace tushar::data {
 
 namespace {
 constexpr std::size_t tooSmallToMatter = std::size_t{1} << 16;
-}
+constexpr int patience = 3;  // number of whole steps in which a buffer may stay free
+}  // namespace
 
 std::size_t BufferPool::bound() const {
   const std::size_t most = std::max(most_lent_, most_lent_before_);
@@ -96,11 +97,12 @@ void BufferPool::release() {
 }
 
 void BufferPool::beginStep() {
+  for (Free& one : free_) ++one.starts;
   std::erase_if(free_, [this](const Free& one) {
-    if (one.isIdle) free_bytes_ -= one.buffer.capacity();
-    return one.isIdle;
+    const bool isIdle = one.starts > patience;
+    if (isIdle) free_bytes_ -= one.buffer.capacity();
+    return isIdle;
   });
-  for (Free& one : free_) one.isIdle = true;
   most_lent_before_ = std::exchange(most_lent_, lent_);
   keepBound();
 }

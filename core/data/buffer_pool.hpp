@@ -19,7 +19,8 @@ class BufferPool {
   void takeBack(Buffer& buffer);
   /// Returns free memory to the system.
   void release();
-  /// Starts a step: memory that stayed free during the whole previous step is returned to the system.
+  /// Starts a step: memory that stayed free during the last few whole steps is returned to the system. One step is too
+  /// few, because some memory is needed in every second step only, such as that for particles that change their cells.
   void beginStep();
 
   /// Number of requests for which the pool had no suitable buffer.
@@ -34,7 +35,7 @@ class BufferPool {
  private:
   struct Free {
     Buffer buffer;
-    bool isIdle = false;  ///< whether it has been free since the step began
+    int starts = 0;  ///< number of steps that have begun since it is free
   };
   using Place = std::vector<Free>::iterator;
 

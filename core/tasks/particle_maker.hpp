@@ -73,7 +73,8 @@ class ParticleMaker {
   bool keeps_all_ = false;
   std::vector<Index3> cells_;
   std::vector<ParticleId> ids_;
-  std::vector<std::size_t> order_;                    ///< for each index in the set, the index in the order of addition
+  /// For each index in the set, the index in the order of addition; empty if they are the same.
+  std::vector<std::size_t> order_;
   std::vector<std::unique_ptr<ColumnBase>> columns_;  ///< columns of values, by access
 };
 
