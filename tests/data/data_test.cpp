@@ -305,7 +305,7 @@ TEST(ParticleSet, KeepsItsRangesWherePlacesForItsOwnPeriodicImagesAreOpen) {
   const grid::Level& level = grid.level();
   ParticleSet set = someCells(grid, 1);
   const int owned = set.owned();
-  for (const Index3& shift : {Index3{{0, -4, 0}}, Index3{{5, 0, 3}}}) {
+  for (const Index3& shift : {Index3{{0, -4, 0}}, Index3{{-5, 0, 3}}}) {
     grid::Box images = level.cells().shifted(shift);
     for (int d = 0; d < 3; ++d) {
       images.lower[d] = std::max(images.lower[d], -1);
