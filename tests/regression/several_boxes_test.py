@@ -22,7 +22,7 @@ FIXED = '<BCType id="all" label="Velocity" var="Dirichlet"><value>[0,0,0]</value
 BLOCK = "<min>[0.375,0.625,0]</min><max>[0.625,0.875,0.03125]</max>"
 GRAVITY = "[2,-9.81,0]"
 SIDES = ("x-", "x+", "y+")
-INTERPOLATORS = ("linear", "gimp", "cpdi", "3rdorderBS")
+INTERPOLATORS = ("linear", "gimp", "mirrored gimp", "cpdi", "mirrored cpdi", "3rdorderBS")
 
 
 def box_of(label):
@@ -36,7 +36,8 @@ SHAFT, CHANNEL = box_of("shaft"), box_of("channel")
 
 def scene(interpolator="gimp", condition=SYMMETRY, **changes):
     """The scene with another condition at the sides x-, x+ and y+, and with other texts."""
-    text = SCENE.replace("<interpolator>gimp", f"<interpolator>{interpolator}")
+    images = "<mirror_images>true</mirror_images>" if interpolator.startswith("mirrored ") else ""
+    text = SCENE.replace("<interpolator>gimp", f"{images}<interpolator>{interpolator.removeprefix('mirrored ')}")
     for side in SIDES:
         text = text.replace(f'<Face side="{side}">{SYMMETRY}</Face>',
                             f'<Face side="{side}">{condition}</Face>' if condition else "")

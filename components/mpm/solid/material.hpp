@@ -65,6 +65,7 @@ struct Material {
   double thermalExpansion = 0;     ///< coefficient of linear expansion [1/K]
   bool isRigid = false;            ///< whether the stress exerts no force
   bool transmitsForce = false;     ///< whether the material moves as one rigid body under the sum of the forces on it
+  bool hasMirrorImages = false;    ///< whether its particles have mirror images beyond symmetry planes
   /// Whether this material may provide the planes that separate it from other materials (see SeparatingPlane).
   bool mayLeadContact = true;
   Damage damage;

@@ -33,6 +33,7 @@ const input::Choices<Interpolator> interpolators{{"linear", Interpolator::linear
 struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
+  std::optional<bool> mirrorImages;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
   bool conductsHeat = true, loadsAtCorners = false, xpic = false, affine = false, projectsGradient = false,
        contactHeats = false, sharesVolume = false, isGranular = false, turnsPressures = false, oneNormal = true;
@@ -107,6 +108,9 @@ void addUpdates(Schema<MpmSection>& mpm) {
              "affine particle-in-cell: particles take the velocity of the grid and its first moment, which preserves "
              "rotation")
       .ours()
+      .optional("mirror_images", &MpmSection::mirrorImages, "1",
+                "whether symmetry planes mirror particles; by default only with B-splines, because Uintah does not")
+      .ours()
       .value("UseMomentumForm", &MpmSection::momentumForm, false, "1",
              "from older versions of Uintah: true means <stress_update> musl");
 }
@@ -173,9 +177,10 @@ void checkDomains(const MpmSection& read, const Element& element, Diagnostics& d
     diagnostics.note(element.child("cpdi_lcrit").value(), "does nothing with axisymmetric, as in Uintah");
 }
 
+bool isSpline(Interpolator shapes) { return shapes == Interpolator::quadratic || shapes == Interpolator::cubic; }
+
 void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
-  const bool isSpline = read.interpolator == Interpolator::quadratic || read.interpolator == Interpolator::cubic;
-  if (read.axisymmetric && isSpline)
+  if (read.axisymmetric && isSpline(read.interpolator))
     diagnostics.error(element, "axisymmetric: is available only with the interpolators linear, gimp and cpdi");
   if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
     diagnostics.error(element, "apic: is not available with axisymmetric or the interpolator cpdi; use XPIC2");
@@ -337,6 +342,8 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   problem.method.limitsDeformation = !problem.motion;
   problem.insertions = readEntering(read, root, diagnostics);
   nameMaterials(problem.materials);
+  for (Material& material : problem.materials)
+    material.hasMirrorImages = read.mirrorImages.value_or(isSpline(read.interpolator));
   settleGrains(problem, {read.isGranular, besideGas}, root, diagnostics);
   settleZones(problem, properties.mpm.zones, {read.usesZones, besideGas, read.axisymmetric}, root, diagnostics);
   checkHeat(problem, root, diagnostics);

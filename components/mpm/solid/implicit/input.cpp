@@ -86,6 +86,7 @@ void addFixedHeat(Schema<Section>& mpm) {
              {"interpolateParticleTempToGridEveryStep"},
              "true or false: in either case, nodes take their temperatures from the particles in every step")
       .forms({input::choiceForm({"interpolateParticleTempToGridEveryStep"}, {"true", "false"})});
+  mpm.ignored("mirror_images", "implicit steps always mirror particles");
   requireSwitch(mpm, "DoMechanics", "solids move; for heat conduction alone, use the component implicit_heat");
 }
 

@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/boundary.hpp"
+#include "components/mpm/solid/transfer/mirror_images.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
 
 namespace tushar::mpm::solid {
@@ -31,16 +32,13 @@ void addAffineVelocity(const Patch& patch, const Material& material, const Vec3&
                        ParticleView<const double> mass, ParticleView<const Matrix3> moment,
                        NodeView<NodeRecord> record) {
   const Level& level = patch.level();
+  const SymmetryPlanes<D> planes(level, material);
   const auto& x = particles.x;
   forEachStencil<Shape>(patch, x.cells(), particles, commonSize, [&](int p, auto stencil) {
     for (int d = 0; d < D; ++d)
       setAffineFactors(stencil.s, d, level.nodePosition(d, stencil.first[d]), level.spacing(d), x[p][d], stencil.ds);
     stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& factors) {
-      if (!record.box().contains(node)) return;
-      NodeRecord& at = record[node];
-      if (at[lane::mass] <= 0) return;
-      const Vec<D> change = moment[p].topLeftCorner<D, D>() * factors * (mass[p] / at[lane::mass]);
-      setLanes<D>(at, lane::velocity, lanes<D>(at, lane::velocity) + change);
+      addVelocityAndImage<D>(planes, record, node, moment[p].topLeftCorner<D, D>() * factors, mass[p]);
     });
   });
   setSymmetry<D>(patch, material.index, touchedRows<D>(x, Shape::ghostNodes), record);

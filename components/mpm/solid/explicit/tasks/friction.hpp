@@ -10,6 +10,7 @@
 #include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/transfer/cell_run.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/mirror_images.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 #include "components/mpm/solid/transfer/stress_source.hpp"
 
@@ -92,6 +93,21 @@ class MeetingPlaces {
 template <int D>
 void mirrorSurface(const Patch& patch, const Material& material, NodeView<SurfaceRecord> surface);
 
+/// The contribution of the mirror image of a particle to a node in front of symmetry planes: that of the particle to
+/// the image of this node, `beyond`.
+template <int D>
+SurfaceShare<D> imageShare(const Level& level, const Index<D>& node, const Index<D>& beyond, const Vec<D>& signs,
+                           Vec<D> x, double mass, double volume, double weight, Matrix3 sigma) {
+  for (int d = 0; d < D; ++d) {
+    if (signs[d] > 0) continue;
+    x[d] = level.nodePosition(d, node[d]) + level.nodePosition(d, beyond[d]) - x[d];
+    const int axis = sceneAxis<D>(level, d);
+    sigma.row(axis) *= -1;
+    sigma.col(axis) *= -1;
+  }
+  return {x, mass, volume, weight, sigma};
+}
+
 /// Adds the particles of a material around places where bodies meet. In axisymmetric scenes, the gradient is that of
 /// the density, as in Uintah, because the mass grows with the radius and would tilt the normal.
 template <class Shape, int D = Shape::dimension>
@@ -100,11 +116,21 @@ void addSurface(const Patch& patch, const Material& material, const Vec3& common
   const Box& box = u.surface.box();
   const Extents<Shape> extents(patch.level(), commonSize, u.size, u.deformation);
   const double density = material.undeformedDensity();
+  const SymmetryPlanes<D> planes(patch.level(), material);
   const auto add = [&](int p, const Matrix3& sigma, const auto& stencil) {
     const double mass = u.mass[p], v = mass / density * u.deformation[p].determinant();
-    const SurfaceShare<D> share(u.x[p], mass, v, Shape::axisymmetric ? mass / v : mass, sigma);
+    const double weight = Shape::axisymmetric ? mass / v : mass;
+    const SurfaceShare<D> share(u.x[p], mass, v, weight, sigma);
     forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>& gradient) {
       share.addTo(u.surface[node], s, gradient);
+    });
+    if (!planes.any()) return;
+    stencil.forEachNode([&](const Index<D>& beyond, double s, const Vec<D>& gradient) {
+      planes.ifBeyond(beyond, [&](const Index<D>& node, const Vec<D>& signs) {
+        if (box.contains(node))
+          imageShare<D>(patch.level(), node, beyond, signs, u.x[p], mass, v, weight, sigma)
+              .addTo(u.surface[node], s, gradient.cwiseProduct(signs));
+      });
     });
   };
   CellRun<D> near;

@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/boundary.hpp"
+#include "components/mpm/solid/transfer/mirror_images.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
 
 namespace tushar::mpm::solid {
@@ -13,19 +14,16 @@ void addVelocityGradient(const Patch& patch, const Material& material, const Vec
                          const Placed<D>& particles, ParticleView<const double> mass,
                          ParticleView<const Matrix3> velocityGradient, NodeView<NodeRecord> record) {
   const Level& level = patch.level();
+  const SymmetryPlanes<D> planes(level, material);
   const auto& x = particles.x;
   forEachStencil<Shape>(patch, x.cells(), particles, commonSize, [&](int p, const auto& stencil) {
     Eigen::Matrix<double, D, D> gradient;
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j) gradient(i, j) = velocityGradient[p](sceneAxis<D>(level, i), sceneAxis<D>(level, j));
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
-      if (!record.box().contains(node)) return;
-      NodeRecord& at = record[node];
-      if (at[lane::mass] <= 0) return;
       Vec<D> away;
       for (int d = 0; d < D; ++d) away[d] = level.nodePosition(d, node[d]) - x[p][d];
-      const Vec<D> change = gradient * away * (s * mass[p] / at[lane::mass]);
-      setLanes<D>(at, lane::velocity, lanes<D>(at, lane::velocity) + change);
+      addVelocityAndImage<D>(planes, record, node, gradient * away, s * mass[p]);
     });
   });
   setSymmetry<D>(patch, material.index, touchedRows<D>(x, Shape::ghostNodes), record);

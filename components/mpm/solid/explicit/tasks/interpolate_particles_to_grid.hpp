@@ -9,6 +9,7 @@
 #include "components/mpm/solid/transfer/boundary.hpp"
 #include "components/mpm/solid/transfer/cell_run.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/mirror_images.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 #include "components/mpm/solid/transfer/stress_source.hpp"
 
@@ -100,11 +101,39 @@ class Scatter {
       if (touching != 0) addTouching(cell, first + left, std::bit_width(touching) - left, touching >> left);
     }
   }
+  /// Adds, to the view's nodes, the mirror images of the particles of a cell beyond symmetry planes. Each patch adds
+  /// them to its nodes one by one, in the order of the cells, so that their sums are equal on all patches.
+  void addImages(const SymmetryPlanes<D>& planes, const Index<D>& cell, const data::ParticleRange& range) const {
+    const CellFrame<D> frame(level_, cell);
+    for (const int p : range) {
+      const Extent<D> extent = extents_[p];
+      if (!planes.mayBeTouched(cornerOf(cell) + frame.coordinates(x_[p]), Shape::support(extent))) continue;
+      const typename Shape::Stencil stencil(frame, cell, x_[p], extent);
+      std::optional<Share> share;
+      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
+        planes.ifBeyond(node, [&](const Index<D>& image, const Vec<D>& signs) {
+          if (s == 0 || !record_.box().contains(image)) return;
+          if (!share) share = shareOf(p);
+          Quad high = s * share->value.high + hoopOf(stencil, node) * share->hoop;
+          for (int d = 0; d < D; ++d) high += gradient[d] * share->slope[static_cast<std::size_t>(d)];
+          const Quad sign = quadOf<D>(signs, 1);
+          NodeRecord& record = record_[image];
+          record.low += sign * (s * share->value.low);
+          record.high += sign * high;
+        });
+      });
+    }
+  }
 
  private:
   using Touching = std::uint64_t;
   static_assert(stressGroup <= 64);
 
+  static Vec<D> cornerOf(const Index<D>& cell) {
+    Vec<D> corner;
+    for (int d = 0; d < D; ++d) corner[d] = cell[d];
+    return corner;
+  }
   /// Whether a cell has a node in the box of the view.
   bool hasOwnNode(const Index<D>& cell) const {
     const Box& nodes = record_.box();
@@ -183,6 +212,11 @@ class Scatter {
     std::array<Quad, D> slope;
     Quad hoop;
   };
+  Share shareOf(int p) const {
+    Matrix3 moment;
+    forceMoments(p, 1, &moment);
+    return shareOf(p, moment);
+  }
   [[gnu::always_inline]] Share shareOf(int p, const Matrix3& moment) const {
     const Vec<D> force = external_force_ ? external_force_[p] : Vec<D>(Vec<D>::Zero());
     return {.value = NodeRecord{quadOf<D>(mass_[p] * velocity_[p], mass_[p]),
@@ -251,6 +285,11 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
       scatter.addGhostCell(cell, range);
   });
   addOwn();
+  if constexpr (!sharesNodes<Shape>)
+    if (const SymmetryPlanes<D> planes(patch.level(), material); planes.any())
+      x.template forEachOccupied<D>(near, [&](const Index<D>& cell, const data::ParticleRange& range) {
+        if (planes.mayBeNear(cell, Shape::ghostNodes)) scatter.addImages(planes, cell, range);
+      });
   rows.forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     for (int k = first[0]; k < end; ++k, ++node)

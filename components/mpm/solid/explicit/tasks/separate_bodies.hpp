@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/explicit/tasks/meeting_nodes.hpp"
 #include "components/mpm/solid/loads/load.hpp"
+#include "components/mpm/solid/transfer/mirror_images.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
 
 // The planes that separate bodies at the nodes where several meet (see SeparatingPlane), as in Uintah.
@@ -104,13 +105,17 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
 
 /// Computes the mass-weighted mean of p.color at the nodes of a patch; 0 without mass.
 template <class Shape, int D = Shape::dimension>
-void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSize, const Placed<D>& particles,
+void interpolateColor(const Patch& patch, const Material& material, const Vec3& commonSize, const Placed<D>& particles,
                       ParticleView<const double> mass, ParticleView<const double> color,
                       NodeView<const NodeRecord> record, NodeView<double> mean) {
   mean.fill(0.0);
+  const SymmetryPlanes<D> planes(patch.level(), material);
   forEachStencil<Shape>(patch, particles.x.cells(), particles, commonSize, [&](int p, const auto& stencil) {
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
       if (mean.box().contains(node)) mean[node] += s * mass[p] * color[p];
+      planes.ifBeyond(node, [&](const Index<D>& image, const Vec<D>&) {
+        if (mean.box().contains(image)) mean[image] += s * mass[p] * color[p];
+      });
     });
   });
   forEach<D>(mean.box(), [&](const Index<D>& node) {
