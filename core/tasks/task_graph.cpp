@@ -58,16 +58,16 @@ bool isOf(const std::vector<Task>& tasks, std::string_view name, int material) {
   });
 }
 
-/// Whether a task other than the one that makes the particles of `made` creates a variable, which no task uses for
-/// these particles.
-bool isOfOthers(const std::vector<Task>& tasks, const std::string& name, const MaterialRange& made) {
-  for (int material = made.first; material < made.end; ++material)
-    if (isOf(tasks, name, material)) return false;
-  return std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
-    return std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& access) {
-      return access.kind == AccessKind::creates && access.label->name == name;
-    });
-  });
+/// Whether a variable belongs only to other materials than those of `made`, whose particles a task makes.
+bool isOfOthers(const std::vector<Task>& tasks, const std::string& name, const MaterialRange& made,
+                const data::VariableTable& table, int materials) {
+  bool hasOther = false;
+  for (int material = 0; material < materials; ++material) {
+    const bool has = isOf(tasks, name, material) || table.find(name, material) >= 0;
+    if (has && made.contains(material)) return false;
+    hasOther = hasOther || has;
+  }
+  return hasOther;
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ void TaskGraph::bind(std::size_t t, data::VariableTable& table) {
   compiled.task = task;
   const int count = static_cast<int>(task.materials.size());
   materials_ = std::max(materials_, count);
-  if (task.kind == TaskKind::newParticles) checkCreated(t);
+  if (task.kind == TaskKind::newParticles) checkCreated(t, table);
   compiled.materials.resize(task.firstMaterial);  // those that it skips
   for (int m = task.range().first; m < task.range().end; ++m) compiled.materials.push_back(bindMaterial(t, m, table));
   for (const Access& access : task.accesses)
@@ -173,15 +173,18 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
   return carried;
 }
 
-void TaskGraph::checkCreated(std::size_t t) const {
+void TaskGraph::checkCreated(std::size_t t, const data::VariableTable& table) const {
   const Task& task = pruned_.kept[t];
+  int materials = 0;
+  for (const Task& other : pruned_.kept) materials = std::max(materials, static_cast<int>(other.materials.size()));
   std::string missing;
   for (const std::string& name : pruned_.liveAfter[t]) {
     if (!name.starts_with("p.") || name == data::particleId.name) continue;
     const bool created = std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& access) {
       return access.kind == AccessKind::creates && access.label->name == name;
     });
-    if (!created && !isOfOthers(pruned_.kept, name, task.range())) missing += (missing.empty() ? "" : ", ") + name;
+    if (!created && !isOfOthers(pruned_.kept, name, task.range(), table, materials))
+      missing += (missing.empty() ? "" : ", ") + name;
   }
   if (!missing.empty())
     throw TaskError(

@@ -89,7 +89,7 @@ class TaskGraph {
   void bind(std::size_t t, data::VariableTable& table);
   MaterialBinding bindMaterial(std::size_t t, int material, data::VariableTable& table);
   std::vector<Carried> carriedBy(std::size_t t, int material, data::VariableTable& table) const;
-  void checkCreated(std::size_t t) const;
+  void checkCreated(std::size_t t, const data::VariableTable& table) const;
   void noteResults(data::VariableTable& table);
 
   std::string name_;

@@ -128,6 +128,29 @@ std::pair<std::vector<double>, std::vector<int>> runOn(const Index3& patches) {
   return result;
 }
 
+/// The masses of the bodies, which the list only carries, are no variables of the marks.
+TEST(FollowingMaterials, CanBeMadeAnewDuringAStep) {
+  grid::Domain domain = test::domain({{12, 1, 1}}, {{3, 1, 1}});
+  domain.upper[0] = 12;
+  for (const int side : {0, 1}) domain.boundaries.face(0, side).clear();
+  test::Runner run(domain);
+  TaskList step;
+  step.perMaterial("advance marks", advance, following(bodies, marks), requiresOld(x), computes(x));
+  step.perMaterial("advance", advance, bodies, requiresOld(x), computes(x));
+  step.relocate(x, following(bodies, marks));
+  step.newParticles("mark anew", mark, following(bodies, marks), creates(x));
+  const Lists lists;
+  TaskGraph start = run.compile(lists.start, {"p.x", "p.mass", "p.particleID"});
+  TaskGraph graph = run.compile(step, {"p.x", "p.mass", "p.particleID"}, true);
+  run.step(start);
+  for (int k = 0; k < 3; ++k) run.step(graph);
+  std::vector<int> counts(3);
+  for (int m = 0; m < 3; ++m)
+    for (int patch = 0; patch < run.warehouse.patches(); ++patch)
+      counts[m] += run.warehouse.particles(Generation::old, m, patch).owned();
+  EXPECT_EQ(counts, (std::vector<int>{9, 9, 4}));
+}
+
 }  // namespace
 
 TEST(FollowingMaterials, haveTheirOwnVariablesAndActOnOthersOnAnyPatches) {
