@@ -38,6 +38,17 @@ tasks::TaskGraph& graphOfStep(RunState& run) {
   return isCareful ? run.phases.carefulAdvance : run.phases.timeAdvance;
 }
 
+/// Whether steps make particles where there are none: a task that makes particles at a rate reads the length of the
+/// step, but one that only divides or merges particles does not.
+bool makesParticles(const tasks::TaskGraph& step) {
+  return std::any_of(step.tasks().begin(), step.tasks().end(), [](const tasks::CompiledTask& compiled) {
+    const auto& accesses = compiled.task.accesses;
+    return compiled.task.kind == tasks::TaskKind::newParticles &&
+           std::any_of(accesses.begin(), accesses.end(),
+                       [](const tasks::Access& access) { return access.label->name == data::delT.name; });
+  });
+}
+
 /// Throws NumericalError, on all ranks, if so many particles were removed that the result no longer represents the
 /// scene.
 void refuseLosses(RunState& run) {
@@ -163,7 +174,8 @@ void Simulation::initialize() {
   run_.warehouse.releaseFreeMemory();  // what particles are made with is not what steps need
   bool hasParticles = false;
   for (int m = 0; m < run_.materials(); ++m) hasParticles = hasParticles || run_.table.find(data::positionName, m) >= 0;
-  if (hasParticles && collect::particleCount(run_.warehouse, run_.materials()) == 0)
+  if (hasParticles && !makesParticles(run_.phases.timeAdvance) &&
+      collect::particleCount(run_.warehouse, run_.materials()) == 0)
     throw InputError({{{run_.problem.scenePath, 0, 0},
                        "MaterialProperties",
                        "there are no particles: no geom_object overlaps the grid"}});
