@@ -14,8 +14,6 @@ using input::Schema;
 
 namespace {
 
-constexpr const char* filePath = "Models/Model/PassiveScalar/scalar/exponentialDecay/c2/filename";
-
 /// The numbers in a line of four, separated by commas or blanks; none if it has other content.
 std::optional<std::array<double, 4>> numbersIn(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
@@ -28,13 +26,15 @@ std::optional<std::array<double, 4>> numbersIn(std::string line) {
 }
 
 /// Reads the lines `x,y,z,value` of a file; lines that begin with # are comments.
-std::shared_ptr<const ValuesOfCells> readValues(const DecayCoefficient& read, Diagnostics& diagnostics) {
+std::shared_ptr<const ValuesOfCells> readValues(const DecayCoefficient& read, const std::string& model,
+                                                Diagnostics& diagnostics) {
   auto values = std::make_shared<ValuesOfCells>();
+  values->path = fmt::format("Models/Model/{}/scalar/exponentialDecay/c2/filename", model);
   values->where = read.whereOfFile;
   values->file = *read.file;
   std::ifstream file(*read.file);
   if (!file) {
-    diagnostics.error(read.whereOfFile, filePath,
+    diagnostics.error(read.whereOfFile, values->path,
                       fmt::format("'{}' cannot be read: there is no such file", *read.file));
     return nullptr;
   }
@@ -44,7 +44,7 @@ std::shared_ptr<const ValuesOfCells> readValues(const DecayCoefficient& read, Di
     const auto numbers = numbersIn(line);
     if (!numbers) {
       diagnostics.error(
-          read.whereOfFile, filePath,
+          read.whereOfFile, values->path,
           fmt::format("'{}' has '{}' in line {}, expected x,y,z,c2", *read.file, line.substr(0, 40), number));
       return nullptr;
     }
@@ -80,7 +80,7 @@ const Schema<DecaySection>& decaySchema() {
 }
 
 ScalarDecay decayOf(double constantRate, double linearRate, const std::optional<DecaySection>& decay,
-                    Diagnostics& diagnostics) {
+                    const std::string& model, Diagnostics& diagnostics) {
   ScalarDecay result;
   result.constantRate = constantRate;
   result.linearRate = linearRate;
@@ -89,7 +89,7 @@ ScalarDecay decayOf(double constantRate, double linearRate, const std::optional<
   result.linearRate += decay->rate;
   result.factor = decay->factor;
   if (decay->coefficient.isTable)
-    result.coefficients = readValues(decay->coefficient, diagnostics);
+    result.coefficients = readValues(decay->coefficient, model, diagnostics);
   else
     result.coefficient = *decay->coefficient.value;
   return result;

@@ -22,9 +22,9 @@ struct DecaySection {
 
 const input::Schema<DecaySection>& decaySchema();
 
-/// How a scalar falls: by the rates of <constants> [1/s], and by a decay, if it is given. Reports a file that cannot be
-/// read, or that is no table of cells, to the diagnostics.
+/// How a scalar of a model falls: by the rates of <constants> [1/s], and by a decay, if it is given. Reports a file
+/// that cannot be read, or that is no table of cells, to the diagnostics.
 ScalarDecay decayOf(double constantRate, double linearRate, const std::optional<DecaySection>& decay,
-                    input::Diagnostics& diagnostics);
+                    const std::string& model, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::ice

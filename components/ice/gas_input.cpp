@@ -10,6 +10,7 @@
 #include "components/ice/gas_materials.hpp"
 #include "components/ice/gas_schemas.hpp"
 #include "components/ice/heating_input.hpp"
+#include "components/ice/tracers/input.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::ice {
@@ -161,6 +162,7 @@ void takeModels(ModelsSection& models, const Element& root, int solids, GasScene
   scene.programs = std::move(models.programs);
   scene.reactions = std::move(models.reactions);
   scene.binary = std::move(models.binary);
+  scene.tracers = std::move(models.tracers);
   std::set<std::string> bodies;
   const auto mpm = root.child("MaterialProperties")->child("MPM");
   for (const Element& material : mpm ? mpm->children("material") : std::vector<Element>())
@@ -236,6 +238,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   }
   if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
   readMaterials(materials, root, solids, scene, diagnostics);
+  if (scene.tracers && diagnostics.size() == before) checkTracers(scene, solids, diagnostics);
   return scene;
 }
 

@@ -12,6 +12,7 @@
 #include "components/ice/mixture/pressure_burn.hpp"
 #include "components/ice/mixture/programmed_burn.hpp"
 #include "components/ice/scalar.hpp"
+#include "components/ice/tracers/tracers.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
 #include "core/solvers/solver.hpp"
@@ -67,6 +68,7 @@ struct GasScene {
   std::vector<BurnModel> burns = {};              ///< burn models of bodies
   std::vector<PressureBurn> reactions = {};       ///< burns by JWL++, by which one gas becomes another
   std::vector<ProgrammedBurn> programs = {};      ///< programmed burns, by which one gas becomes another
+  std::optional<TracerSettings> tracers = {};     ///< particles that move with a gas
   std::optional<BinaryProperties> binary = {};    ///< set if the only gas of the scene is a mixture of two
 };
 

@@ -163,6 +163,7 @@ struct ModelsSection {
   std::vector<PressureBurn> reactions;
   std::vector<ProgrammedBurn> programs;
   std::optional<BinaryProperties> binary;
+  std::optional<TracerSettings> tracers;
 };
 const input::Schema<ModelsSection>& modelsSchema();
 

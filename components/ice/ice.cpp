@@ -9,6 +9,7 @@
 #include "components/ice/tasks/carry_scalar.hpp"
 #include "components/ice/tasks/limit_implicit_step.hpp"
 #include "components/ice/tasks/solve_pressure.hpp"
+#include "components/ice/tracers/schedule.hpp"
 #include "components/ice/uintah_words.hpp"
 #include "core/simulation/by_dimension.hpp"
 
@@ -45,6 +46,24 @@ template <int D>
 void Ice<D>::scheduleInitialize(TaskList& tasks) const {
   euler::Euler<D>::scheduleInitialize(tasks);
   for (const auto& one : scalars_) scheduleStartOfScalar<D>(tasks, *one, euler::c::density);
+  if (!tracers_) return;
+  scheduleFlow<D>(tasks);
+  scheduleStartOfTracers<D>(tasks, *tracers_, this->settings().gas, tracers_->ofGases());
+}
+
+template <int D>
+void Ice<D>::scheduleTracers(TaskList& tasks) const {
+  if (!tracers_) return;
+  scheduleFlow<D>(tasks);
+  scheduleMotionOfTracers<D>(tasks, *tracers_, this->settings().gas, tracers_->ofGases());
+  tasks.relocate(p::x<D>, tracers_->ofGases());
+  scheduleNewTracers<D>(tasks, *tracers_, this->settings().gas, tracers_->ofGases());
+}
+
+template <int D>
+std::vector<simulation::Reported> Ice<D>::reported() const {
+  if (!tracers_) return {};
+  return {numberOfTracers()};
 }
 
 template <int D>
@@ -85,6 +104,7 @@ void Ice<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (!acting_.gravity.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(acting_.gravity), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
+  scheduleTracers(tasks);
 }
 
 template <int D>
@@ -106,11 +126,13 @@ void Ice<D>::scheduleDiagnostics(TaskList& tasks) const {
   }
   tasks.perPatch("ice::computeSpecificVolume", computeSpecificVolume<D>, requiresOld(euler::c::density),
                  computes(c::specificVolume));
+  if (tracers_) scheduleDiagnosticsOfTracers<D>(tasks, *tracers_, tracers_->ofGases());
 }
 
 template <int D>
 std::vector<std::string> Ice<D>::foreignLabels() const {
   auto labels = uintahsLabels;
+  if (tracers_) labels.emplace_back("nPPC");
   for (const auto& one : scalars_) one->addForeignLabels(labels);
   return labels;
 }
@@ -119,6 +141,7 @@ template <int D>
 simulation::OtherNames Ice<D>::otherNames() const {
   simulation::OtherNames names = uintahsNames;
   for (const auto& one : scalars_) one->addNames(names);
+  if (tracers_) tracers_->addNames(names);
   return names;
 }
 
@@ -148,6 +171,7 @@ void ImplicitIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                  all<euler::NewState<D>>(), all<euler::FaceMasses<D>>(this->keepsFaceMasses()));
   this->scheduleScalars(tasks);
   this->scheduleDiffusion(tasks);
+  this->scheduleTracers(tasks);
 }
 
 template class ImplicitIce<1>;

@@ -5,6 +5,7 @@
 #include "components/ice/face_flow.hpp"
 #include "components/ice/gas_input.hpp"
 #include "components/ice/labels.hpp"
+#include "components/ice/tracers/tracers.hpp"
 #include "core/simulation/catalogue.hpp"
 
 namespace tushar::ice {
@@ -22,6 +23,7 @@ class Ice : public euler::Euler<D> {
         heating_(scene.heating) {
     if (varying_.varies()) acting_.diffusion = {};
     for (const ScalarSettings& one : scene.scalars) scalars_.push_back(std::make_shared<const CarriedScalar>(one));
+    tracers_ = tracersOf(scene.tracers, {scene.gas.name}, scalars_, false);
     if (!scene.implicit) return;
     acting_.soundSpeedKnob = scene.implicit->soundSpeedKnob;
     acting_.solver = scene.implicit->solver;
@@ -36,12 +38,16 @@ class Ice : public euler::Euler<D> {
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
   std::vector<std::string> gasNames() const override { return {this->settings().name}; }
+  std::string whyOneLevel() const override { return tracers_ ? tracersOnOneLevel : euler::Euler<D>::whyOneLevel(); }
+  std::vector<simulation::Reported> reported() const override;
 
  protected:
   const IceSettings& acting() const { return acting_; }
   bool keepsFaceMasses() const override { return !scalars_.empty(); }
   /// Adds the tasks that advect scalars after the step of the gas.
   void scheduleScalars(TaskList& tasks) const;
+  /// Adds the tasks that move and make tracers, at the end of the step.
+  void scheduleTracers(TaskList& tasks) const;
   /// Adds the tasks that limit the time step because of scalars.
   void scheduleStepsOfScalars(TaskList& tasks) const;
   /// Adds viscosity, conduction and a driving force, after the step of the gas.
@@ -52,6 +58,7 @@ class Ice : public euler::Euler<D> {
 
  private:
   CarriedScalars scalars_;
+  std::shared_ptr<const TracersOfGases> tracers_;  ///< null if there are none
   IceSettings acting_;  ///< settings of the step; they contain the diffusion only if it is uniform
   euler::VaryingDiffusion varying_;
   Vec3 push_;  ///< driving force per volume [N/m³]
@@ -70,7 +77,9 @@ class ImplicitIce : public Ice<D> {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   std::string whyOneLevel() const override { return pressureOnOneLevel; }
   std::vector<simulation::Reported> reported() const override {
-    return {simulation::iterationsOfRun(total::iterations)};
+    std::vector<simulation::Reported> all = Ice<D>::reported();
+    all.push_back(simulation::iterationsOfRun(total::iterations));
+    return all;
   }
 };
 

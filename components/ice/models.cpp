@@ -6,6 +6,7 @@
 
 #include "components/ice/decay_input.hpp"
 #include "components/ice/gas_schemas.hpp"
+#include "components/ice/tracers/input.hpp"
 #include "core/input/refuse.hpp"
 
 // The section Models: scalars that are transported with the gas.
@@ -19,8 +20,9 @@ using input::Schema;
 namespace {
 
 /// The values of the attribute `type` of a <Model>.
-const std::vector<std::string> modelTypes{"PassiveScalar", "Test",  "Simple_Burn", "Steady_Burn",     "Unsteady_Burn",
-                                          "DDT1",          "JWLpp", "LightTime",   "BinaryProperties"};
+const std::vector<std::string> modelTypes{"PassiveScalar",    "Test",           "Simple_Burn", "Steady_Burn",
+                                          "Unsteady_Burn",    "DDT1",           "JWLpp",       "LightTime",
+                                          "BinaryProperties", "TracerParticles"};
 
 const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
@@ -167,12 +169,25 @@ void readBinary(const Element& model, ModelsSection& models, Diagnostics& diagno
   if (diagnostics.size() == before) models.binary = std::move(read);
 }
 
+void readTracers(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
+  const auto given = model.child(tracersSchema().name());
+  if (!given) return diagnostics.error(model, "missing tag <TracerParticles> in <Model>");
+  if (models.tracers)
+    return diagnostics.error(model,
+                             "a second <Model type=\"TracerParticles\"> is not available; give the first one more "
+                             "regions and scalars");
+  const std::size_t before = diagnostics.size();
+  TracerSettings read = settingsOfTracers(tracersSchema().read(*given, diagnostics), diagnostics);
+  if (diagnostics.size() == before) models.tracers = std::move(read);
+}
+
 void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const std::string type = model.attribute("type").value_or("");
   if (type == "Test") return readExchange(model, models, diagnostics);
   if (type == "JWLpp") return readReaction(model, models, diagnostics);
   if (type == "LightTime") return readProgram(model, models, diagnostics);
   if (type == "BinaryProperties") return readBinary(model, models, diagnostics);
+  if (type == tracersSchema().name()) return readTracers(model, models, diagnostics);
   if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
   if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
   if (type == unsteadyBurnSchema().name()) return readBurning(model, unsteadyBurnSchema(), models, diagnostics);
@@ -185,7 +200,8 @@ void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnos
   const std::size_t before = diagnostics.size();
   ScalarSection read = passiveScalarSchema().read(*given, diagnostics).scalar;
   if (diagnostics.size() > before) return;
-  const ScalarDecay decay = decayOf(read.constants.constantRate, read.constants.linearRate, read.decay, diagnostics);
+  const ScalarDecay decay =
+      decayOf(read.constants.constantRate, read.constants.linearRate, read.decay, "PassiveScalar", diagnostics);
   if (diagnostics.size() > before) return;
   const auto isIt = [&](const ScalarSettings& other) { return other.name == read.name; };
   if (std::any_of(models.scalars.begin(), models.scalars.end(), isIt))
@@ -225,7 +241,7 @@ const Schema<ModelsSection>& modelsSchema() {
               "type=\"Unsteady_Burn\", type=\"DDT1\": a body burns; type=\"JWLpp\": a gas burns at a rate that depends "
               "on the pressure; type=\"LightTime\": a "
               "gas detonates at given times; type=\"BinaryProperties\": the gas consists of two gases at one "
-              "temperature",
+              "temperature; type=\"TracerParticles\": particles without mass move with the gas",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
@@ -236,6 +252,7 @@ const Schema<ModelsSection>& modelsSchema() {
                 pressureBurnSchema().describe(out, indent);
                 programmedBurnSchema().describe(out, indent);
                 describeBinaryProperties(out, indent);
+                tracersSchema().describe(out, indent);
               })
           .forms({{.tags = {"Model"}, .demands = {{"type", modelTypes}}}});
   return schema;

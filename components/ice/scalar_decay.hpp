@@ -17,7 +17,8 @@ namespace tushar::ice {
 
 /// Values at points of the grid, read from a file: one for each cell.
 struct ValuesOfCells {
-  Location where;  ///< the tag that names the file
+  Location where;    ///< the tag that names the file
+  std::string path;  ///< of this tag
   std::string file;
   std::vector<std::pair<Vec3, double>> points;  ///< positions in cells [m], and the values there
 };
@@ -69,7 +70,7 @@ void initializeDecay(const Patch& patch, const ScalarDecay& decay, CellView<doub
     if (!std::isnan(coefficient[cell])) return;
     const Vec3 centre = level.expandPoint<D>(level.cellCentre<D>(cell));
     throw InputError(
-        {{decay.coefficients->where, "Models/Model/PassiveScalar/scalar/exponentialDecay/c2/filename",
+        {{decay.coefficients->where, decay.coefficients->path,
           fmt::format("'{}' has no line for the cell at ({:g}, {:g}, {:g}); every cell needs one, x,y,z,c2",
                       decay.coefficients->file, centre[0], centre[1], centre[2])}});
   });

@@ -263,6 +263,22 @@ void refuseOscillatingBodies(const Element& root, int solids, Diagnostics& diagn
     }
 }
 
+/// Refuses scalars of tracers that have the name of a variable of bodies: both would be one variable.
+void refuseNamesOfBodies(const ice::GasScene& scene, Diagnostics& diagnostics) {
+  if (!scene.tracers) return;
+  namespace body = mpm::solid::p;
+  const std::vector<std::string_view> taken{
+      body::mass.name,   body::volume.name,           body::temperature.name, body::temperatureChange.name,
+      body::damage.name, body::failureThreshold.name, body::localized.name,   body::failureTime.name,
+      body::color.name,  body::surface.name,          body::viscosity.name,   body::strainEnergy.name,
+      p::unburned.name};
+  for (const ice::TracerScalarSettings& one : scene.tracers->scalars)
+    for (const std::string_view name : taken)
+      if (one.name == name || "p." + one.name == name)
+        diagnostics.error(one.where, "Models/Model",
+                          fmt::format("the name '{}' is given twice: bodies have a variable {}", one.name, name));
+}
+
 template <int D>
 std::unique_ptr<Component> makeWithGas(const Level& level, const Settings& settings,
                                        const mpm::solid::MakeSurrounded& makeSolids) {
@@ -303,6 +319,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   settings.diffusion = {scene.varying, scene.diffusions};
   settings.heating = scene.heating;
   settings.scalars = scene.scalars;
+  settings.tracers = scene.tracers;
   settings.gases = scene.mixture;
   settings.reactions = ice::reactionsOf(scene);
   if (scene.implicit && (areRigid || !needsNoImplicitSteps(scene, bodies.materials, root, diagnostics)))
@@ -320,6 +337,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);
   refuseOscillatingBodies(root, solids, diagnostics);
+  refuseNamesOfBodies(scene, diagnostics);
   noteContacts(root, diagnostics);
   if (!settings.thinWalls) noteThinBodies(bodies.materials, root, diagnostics);
   if (diagnostics.size() > before) return {};

@@ -1,6 +1,7 @@
 #include "components/mpmice/mpmice.hpp"
 
 #include "components/ice/tasks/carry_scalar.hpp"
+#include "components/ice/tracers/schedule.hpp"
 #include "components/mpmice/burn/burn_modes.hpp"
 #include "components/mpmice/burn/gas_of_burning.hpp"
 #include "components/mpmice/burn/unsteady_surface.hpp"
@@ -11,6 +12,7 @@
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/tasks/conduct_to_bodies.hpp"
 #include "components/mpmice/tasks/exchange_heat.hpp"
+#include "components/mpmice/tasks/find_flow.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
 #include "components/mpmice/tasks/react_gas.hpp"
@@ -32,6 +34,13 @@ AdvanceGas<D> advanceBody(const euler::Method& method, std::size_t gases) {
              : advanceGas<D, euler::Hllc, euler::Sloped<VanLeer>, 1>;
 }
 
+/// Adds the task that finds the velocity with which tracers move; `reads` gives access to the masses of particles.
+template <int D>
+void scheduleFlow(TaskList& tasks, const std::vector<mpm::solid::Material>& materials, auto reads) {
+  tasks.acrossMaterials("mpmice::findFlow", findFlowAround<D>, materials, withoutMaterial(all<FlowOfGas<D>>()),
+                        all<MovingBody<D>>(reads));
+}
+
 }  // namespace
 
 template <int D>
@@ -39,6 +48,7 @@ GasAround<D>::GasAround(Settings settings) : settings_(std::move(settings)) {
   for (const euler::Settings& gas : settings_.gases) totals_.push_back(std::make_shared<const ice::GasTotal>(gas.name));
   for (const ice::ScalarSettings& one : settings_.scalars)
     scalars_.push_back(std::make_shared<const ice::CarriedScalar>(one));
+  tracers_ = ice::tracersOf(settings_.tracers, gasNames(), scalars_, true);
 }
 
 template <int D>
@@ -86,6 +96,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
+  if (!tracers_) return;
+  scheduleFlow<D>(tasks, materials, readsNew);
+  ice::scheduleStartOfTracers<D>(tasks, *tracers_, settings_.gas.gas, tracersAfter(materials));
 }
 
 template <int D>
@@ -188,6 +201,22 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (burns())
     tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresOld(p::mass), requiresNew(p::mass),
                       modifies(p::x<D>), when(keepsStrain(materials), modifies(p::strainEnergy)));
+  if (!tracers_) return;
+  scheduleFlow<D>(tasks, materials, readsOld);
+  ice::scheduleMotionOfTracers<D>(tasks, *tracers_, settings_.gas.gas, tracersAfter(materials));
+}
+
+template <int D>
+void GasAround<D>::scheduleRelocation(TaskList& tasks, const Materials& materials) const {
+  if (tracers_)
+    tasks.relocate(p::x<D>, tracersAfter(materials));
+  else
+    tasks.relocate(p::x<D>, materials);
+}
+
+template <int D>
+void GasAround<D>::scheduleNewTracers(TaskList& tasks, const Materials& materials) const {
+  if (tracers_) ice::scheduleNewTracers<D>(tasks, *tracers_, settings_.gas.gas, tracersAfter(materials));
 }
 
 template <int D>
@@ -309,6 +338,7 @@ std::vector<std::string> MpmIce<D>::foreignLabels() const {
   labels.insert(labels.end(), ice::uintahsLabels.begin(), ice::uintahsLabels.end());
   labels.insert(labels.end(), uintahsLabels.begin(), uintahsLabels.end());
   for (const auto& one : gas_->scalars()) one->addForeignLabels(labels);
+  if (gas_->tracers()) labels.emplace_back("nPPC");
   return labels;
 }
 
@@ -319,6 +349,7 @@ simulation::OtherNames MpmIce<D>::otherNames() const {
   names.insert(names.end(), ice::uintahsNames.begin(), ice::uintahsNames.end());
   names.insert(names.end(), ofSolids.begin(), ofSolids.end());
   for (const auto& one : gas_->scalars()) one->addNames(names);
+  if (gas_->tracers()) gas_->tracers()->addNames(names);
   return names;
 }
 

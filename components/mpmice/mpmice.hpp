@@ -21,10 +21,15 @@ class GasAround : public mpm::solid::Surroundings {
 
   std::vector<std::string> gasNames() const;
   const ice::CarriedScalars& scalars() const { return scalars_; }
+  /// The tracers of the gases; null if there are none.
+  const ice::TracersOfGases* tracers() const { return tracers_.get(); }
   bool exchangesHeat() const override { return hasHeat() || burns(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
+  void scheduleRelocation(TaskList& tasks, const Materials& materials) const override;
+  /// Adds the tasks that make tracers, after all other tasks of a step.
+  void scheduleNewTracers(TaskList& tasks, const Materials& materials) const;
   void scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const;
   void scheduleDiagnostics(TaskList& tasks, const Materials& materials) const;
   std::vector<simulation::Reported> reported() const;
@@ -60,10 +65,13 @@ class GasAround : public mpm::solid::Surroundings {
   /// Adds the tasks that advect scalars with the gas: before small cells are merged, and after.
   void carryScalars(TaskList& tasks) const;
   void shareScalars(TaskList& tasks) const;
+  /// The tracers as materials that follow the bodies.
+  auto tracersAfter(const Materials& materials) const { return following(materials, tracers_->ofGases()); }
 
   Settings settings_;
   std::vector<std::shared_ptr<const ice::GasTotal>> totals_;  ///< totals of each gas, if there are several
   ice::CarriedScalars scalars_;
+  std::shared_ptr<const ice::TracersOfGases> tracers_;  ///< null if there are none
 };
 
 /// Solids and a gas on the same grid.
@@ -78,7 +86,10 @@ class MpmIce : public Component {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override {
     gas_->scheduleStableTimeStep(tasks, solids_->problem().materials);
   }
-  void scheduleTimeAdvance(TaskList& tasks) const override { solids_->scheduleTimeAdvance(tasks); }
+  void scheduleTimeAdvance(TaskList& tasks) const override {
+    solids_->scheduleTimeAdvance(tasks);
+    gas_->scheduleNewTracers(tasks, solids_->problem().materials);
+  }
   void scheduleDiagnostics(TaskList& tasks) const override {
     solids_->scheduleDiagnostics(tasks);
     gas_->scheduleDiagnostics(tasks, solids_->problem().materials);
@@ -87,10 +98,11 @@ class MpmIce : public Component {
   void scheduleErrorEstimate(TaskList& tasks) const override { gas_->scheduleErrorEstimate(tasks); }
   void scheduleRefine(TaskList& tasks) const override { gas_->scheduleRefine(tasks); }
   std::string whyOneLevel() const override {
+    if (gas_->tracers()) return ice::tracersOnOneLevel;
     if (gas_->waitsForFlames()) return "useInductionTime is not available on several levels; set it to false";
     return gas_->isImplicit() ? ice::pressureOnOneLevel : solids_->whyOneLevel();
   }
-  std::string whyOneBox() const override { return solids_->whyOneBox(); }
+  std::string whyOneBox() const override { return gas_->tracers() ? ice::tracersInOneBox : solids_->whyOneBox(); }
   std::string advice() const override;
   bool mayRepeatStep() const override { return true; }
   std::vector<std::string> foreignLabels() const override;

@@ -1,3 +1,4 @@
+#include "components/ice/tracers/schedule.hpp"
 #include "components/mpmice/burn/gas_of_burning.hpp"
 #include "components/mpmice/mpmice.hpp"
 #include "components/mpmice/tasks/diagnose.hpp"
@@ -78,6 +79,7 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks, const Materials& materia
     tasks.perPatch("ice::sumScalar", ice::sumScalar<D>, requiresOld(one->held()), computes(one->total()));
   }
   tasks.perPatch("mpmice::sumLeak", sumOverVolume<D>, requiresOld(c::leakSinceStart), computes(total::leak));
+  if (tracers_) ice::scheduleDiagnosticsOfTracers<D>(tasks, *tracers_, tracersAfter(materials));
 }
 
 template <int D>
@@ -95,6 +97,7 @@ std::vector<simulation::Reported> GasAround<D>::reported() const {
     all.push_back({"burnt_mass", "mass of bodies that burned", "kg", &total::burntMass, end});
     all.push_back({"reaction_heat", "heat released by burning", "J", &total::reactionHeat, end});
   }
+  if (tracers_) all.push_back(ice::numberOfTracers());
   if (settings_.implicit) all.push_back(simulation::iterationsOfRun(ice::total::iterations));
   return all;
 }

@@ -8,6 +8,7 @@
 #include "components/ice/heating.hpp"
 #include "components/ice/mixture/pressure_burn.hpp"
 #include "components/ice/scalar.hpp"
+#include "components/ice/tracers/tracers.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpmice {
@@ -50,12 +51,13 @@ struct Settings {
   bool thinWalls = false;        ///< whether bodies thinner than a cell also block the gas
   bool areRigid = false;         ///< whether bodies keep their velocities, unaffected by the gas
   GasDiffusion diffusion = {};
-  std::optional<ice::IceSettings> implicit = {};  ///< settings of implicit steps, if sound does not limit the steps
-  ice::Heating heating = {};                      ///< heating of the gases
-  std::vector<euler::Settings> gases = {};        ///< each gas, if several share cells; the first is `gas`
-  std::vector<ice::Reaction> reactions = {};      ///< reactions by which one gas becomes another
-  std::optional<Burning> burning = {};            ///< the body that burns, if any
-  std::vector<ice::ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
+  std::optional<ice::IceSettings> implicit = {};    ///< settings of implicit steps, if sound does not limit the steps
+  ice::Heating heating = {};                        ///< heating of the gases
+  std::vector<euler::Settings> gases = {};          ///< each gas, if several share cells; the first is `gas`
+  std::vector<ice::Reaction> reactions = {};        ///< reactions by which one gas becomes another
+  std::optional<Burning> burning = {};              ///< the body that burns, if any
+  std::vector<ice::ScalarSettings> scalars = {};    ///< scalars that are transported with the gas
+  std::optional<ice::TracerSettings> tracers = {};  ///< particles that move with a gas
 
   /// Whether gas flows into space that bodies leave empty: ideal gases in explicit steps, which expand without limit.
   bool fillsVacuum() const {

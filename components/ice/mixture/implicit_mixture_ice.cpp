@@ -42,6 +42,7 @@ void ImplicitMixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                         withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>());
   this->scheduleSources(tasks);
   this->scheduleHeat(tasks);
+  this->scheduleTracers(tasks);
 }
 
 template class ImplicitMixtureIce<1>;

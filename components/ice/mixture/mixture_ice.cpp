@@ -2,6 +2,7 @@
 
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/ice/diagnose.hpp"
+#include "components/ice/tracers/schedule.hpp"
 #include "components/ice/uintah_words.hpp"
 
 namespace tushar::ice {
@@ -49,12 +50,35 @@ MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
       binary_(scene.gas.name),
       isBinary_(scene.binary.has_value()) {
   for (const euler::Settings& gas : gases_) totals_.push_back(std::make_shared<const GasTotal>(gas.name));
+  std::optional<TracerSettings> settings = scene.tracers;
+  if (settings && isBinary_) settings->material = gases_.front().name;
+  std::vector<std::string> names;
+  for (const euler::Settings& gas : gases_) names.push_back(gas.name);
+  tracers_ = tracersOf(settings, names, {}, false);
 }
 
 template <int D>
 void MixtureIce<D>::scheduleInitialize(TaskList& tasks) const {
   tasks.acrossMaterials("ice::initializeMixture", initializeMixture<D>, gases_,
                         withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>());
+  if (!tracers_) return;
+  scheduleFlow<D>(tasks);
+  scheduleStartOfTracers<D>(tasks, *tracers_, gases_.front().gas, tracers_->ofGases());
+}
+
+template <int D>
+void MixtureIce<D>::scheduleTracers(TaskList& tasks) const {
+  if (!tracers_) return;
+  scheduleFlow<D>(tasks);
+  scheduleMotionOfTracers<D>(tasks, *tracers_, gases_.front().gas, tracers_->ofGases());
+  tasks.relocate(p::x<D>, tracers_->ofGases());
+  scheduleNewTracers<D>(tasks, *tracers_, gases_.front().gas, tracers_->ofGases());
+}
+
+template <int D>
+std::vector<simulation::Reported> MixtureIce<D>::reported() const {
+  if (!tracers_) return {};
+  return {numberOfTracers()};
 }
 
 template <int D>
@@ -87,6 +111,7 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
   scheduleHeat(tasks);
   if (areBlended()) scheduleClosing(tasks);
+  scheduleTracers(tasks);
 }
 
 /// Adds the task that finds the volume fractions of gases with laws of their own. Until then, those of a step are
@@ -169,6 +194,7 @@ void MixtureIce<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.acrossMaterials("ice::computeOwnDensity", computeOwnDensity<D>, gases_, each, computes(c::ownDensity));
   tasks.perPatch("ice::computeSpecificVolume", computeSpecificVolume<D>, requiresOld(euler::c::density),
                  computes(c::specificVolume));
+  if (tracers_) scheduleDiagnosticsOfTracers<D>(tasks, *tracers_, tracers_->ofGases());
 }
 
 template <int D>
@@ -194,6 +220,7 @@ simulation::OtherNames MixtureIce<D>::otherNames() const {
   if (isBinary_)  // one gas to Uintah
     names = {{"scalar-f", std::string(c::massFraction.name)}, {"sum_scalar_f", "TotalMass-B"}};
   names.insert(names.end(), uintahsNames.begin(), uintahsNames.end());
+  if (tracers_) tracers_->addNames(names);
   return names;
 }
 

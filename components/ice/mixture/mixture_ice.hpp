@@ -7,6 +7,7 @@
 #include "components/ice/mixture/exchange_heat.hpp"
 #include "components/ice/mixture/exchange_mass.hpp"
 #include "components/ice/mixture/tasks.hpp"
+#include "components/ice/tracers/tracers.hpp"
 
 namespace tushar::ice {
 
@@ -33,6 +34,8 @@ class MixtureIce : public Component, public reference::GasSolution {
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
                             const reference::Clock& clock) const override;
   std::vector<reference::MeasuredPlace> measuredPlaces() const override { return {reference::MeasuredPlace::cell}; }
+  std::string whyOneLevel() const override { return tracers_ ? tracersOnOneLevel : ""; }
+  std::vector<simulation::Reported> reported() const override;
 
  protected:
   const euler::Courant& courant() const { return courant_; }
@@ -42,8 +45,10 @@ class MixtureIce : public Component, public reference::GasSolution {
   void scheduleSources(TaskList& tasks) const;
   /// Adds the task that limits the time step by diffusion, together with the given fraction of the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
-  /// Adds the heat exchange between gases, after all other tasks.
+  /// Adds the heat exchange between gases, after all other tasks of the gases.
   void scheduleHeat(TaskList& tasks) const;
+  /// Adds the tasks that move and make tracers, at the end of the step.
+  void scheduleTracers(TaskList& tasks) const;
 
  private:
   /// Whether a gas has its own law.
@@ -64,6 +69,7 @@ class MixtureIce : public Component, public reference::GasSolution {
   std::string binary_;     ///< with BinaryProperties, the name of the gas of the scene
   bool isBinary_ = false;  ///< whether the gases are the two parts of a single gas of the scene
   std::vector<std::shared_ptr<const GasTotal>> totals_;
+  std::shared_ptr<const TracersOfGases> tracers_;  ///< null if there are none
 };
 
 /// Several gases with implicit steps.
@@ -77,7 +83,9 @@ class ImplicitMixtureIce : public MixtureIce<D> {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   std::string whyOneLevel() const override { return pressureOnOneLevel; }
   std::vector<simulation::Reported> reported() const override {
-    return {simulation::iterationsOfRun(total::iterations)};
+    std::vector<simulation::Reported> all = MixtureIce<D>::reported();
+    all.push_back(simulation::iterationsOfRun(total::iterations));
+    return all;
   }
 
  private:

@@ -20,6 +20,8 @@ class Surroundings {
   /// Adds the tasks that run before particles are relocated, when p.x is known at the start and at the end of the step,
   /// and g.record contains the velocities at both times.
   virtual void scheduleMotion(TaskList& tasks, const std::vector<Material>& materials) const = 0;
+  /// Adds the relocation of the particles of `materials`, and of particles of its own.
+  virtual void scheduleRelocation(TaskList& tasks, const std::vector<Material>& materials) const = 0;
 };
 
 }  // namespace tushar::mpm::solid

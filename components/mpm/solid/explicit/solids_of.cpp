@@ -174,8 +174,12 @@ void SolidsOf<D>::scheduleEndOfStep(TaskList& tasks) const {
     tasks.perMaterial("mpm::insertParticles", insertParticles<D>, problem_.materials, with(problem_.insertions),
                       startTime(), requiresOld(delT), requiresOld(p::color), modifies(p::x<D>),
                       modifies(p::velocity<D>));
-  hasZones() ? tasks.relocate(p::x<D>, following(problem_.materials, problem_.zones))
-             : tasks.relocate(p::x<D>, problem_.materials);
+  if (problem_.surroundings)
+    problem_.surroundings->scheduleRelocation(tasks, problem_.materials);
+  else if (hasZones())
+    tasks.relocate(p::x<D>, following(problem_.materials, problem_.zones));
+  else
+    tasks.relocate(p::x<D>, problem_.materials);
 }
 
 /// Adds the forces that act at the corners of particles.
