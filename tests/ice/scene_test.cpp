@@ -252,7 +252,7 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 TEST(IceScene, RefusesModels) {
   EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT0\"/></Models>\n  <CFD>")),
             "the type 'DDT0' is not available; remove the model, or use one of PassiveScalar, Test, Simple_Burn, "
-            "Steady_Burn, Unsteady_Burn, DDT1, JWLpp, LightTime, BinaryProperties");
+            "Steady_Burn, Unsteady_Burn, DDT1, JWLpp, LightTime, BinaryProperties, TracerParticles");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {
