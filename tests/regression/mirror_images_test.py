@@ -33,7 +33,7 @@ def material(lower, upper, velocity):
 
 
 def scene(shapes, tags, cells, bodies, contact=""):
-    """A scene on a grid of cells of 1 m, from the first to the last along each axis, with symmetry planes all around."""
+    """A scene on a grid of cells of 1 m, between the ends along each axis, with symmetry planes all around."""
     lower, upper = ([int(one[end]) for one in cells] for end in (0, 1))
     planes = "".join(f'<Face side="{axis}{end}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
                      for axis in "xyz" for end in "-+")

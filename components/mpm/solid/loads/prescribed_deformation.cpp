@@ -97,8 +97,10 @@ struct PrescribedDeformation::Moment {
 };
 
 PrescribedDeformation::Moment PrescribedDeformation::at(double time) const {
-  const auto isBefore = [](const Point& point, double t) { return point.time < t; };
-  const auto next = std::lower_bound(points_.begin() + 1, points_.end() - 1, time, isBefore);
+  // A step that starts at a point, but for round-off, follows the path from there on.
+  const double late = time + 1e-9 * (points_.back().time - points_.front().time);
+  const auto isLater = [](double t, const Point& point) { return t < point.time; };
+  const auto next = std::upper_bound(points_.begin() + 1, points_.end() - 1, late, isLater);
   const Point &a = *(next - 1), &b = *next;
   const double span = b.time - a.time, share = (time - a.time) / span;
   return {.stretched = (1 - share) * a.deformation + share * b.deformation,

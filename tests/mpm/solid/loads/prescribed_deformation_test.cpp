@@ -52,6 +52,15 @@ TEST(PrescribedDeformation, HasTheGradientOfItsVelocity) {
   }
 }
 
+/// The times of steps are sums of many numbers: round-off must not choose between two parts of the path.
+TEST(PrescribedDeformation, FollowsTheNextPartFromEachPointOn) {
+  const PrescribedDeformation p = path();
+  const Matrix3 after = p.velocityGradient(1 + 1e-6);
+  EXPECT_GT((after - p.velocityGradient(1 - 1e-6)).norm(), 0.1);
+  for (const double time : {1 - 1e-13, 1.0, 1 + 1e-13})
+    EXPECT_LT((p.velocityGradient(time) - after).norm(), 1e-5) << time - 1;
+}
+
 TEST(Deform, FollowsTheSeriesOfTheExponential) {
   Matrix3 gradient, result;
   gradient << 0, -2, 0, 2, 0, 0, 0, 0, 0.5;

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""Heat conduction in explicit solids: it limits the time step, so that temperatures stay between those of the start."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from solids import SceneTest, globals_of, last_state
+from sus import run
+
+PLANES = "".join(f'<Face side="{axis}{end}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
+                 for axis in "xyz" for end in "-+")
+
+
+def scene(interpolator, conductivity):
+    """A bar of 1 m, whose left half is at 300 K and whose right half is at 400 K."""
+    return f"""<?xml version="1.0"?><Uintah_specification><SimulationComponent type="mpm"/>
+<Time><maxTime>.05</maxTime><initTime>0</initTime><delt_min>0</delt_min><delt_max>1</delt_max>
+<timestep_multiplier>.9</timestep_multiplier></Time>
+<Grid><Level><Box><lower>[0,0,0]</lower><upper>[1,.25,.125]</upper><resolution>[8,2,1]</resolution></Box></Level>
+<BoundaryConditions>{PLANES}</BoundaryConditions></Grid>
+<MPM><time_integrator>explicit</time_integrator><interpolator>{interpolator}</interpolator></MPM>
+<MaterialProperties><MPM><material><density>1000</density><specific_heat>100</specific_heat>
+<thermal_conductivity>{conductivity}</thermal_conductivity><constitutive_model type="comp_neo_hook">
+<bulk_modulus>1e6</bulk_modulus><shear_modulus>5e5</shear_modulus></constitutive_model><geom_object>
+<box><min>[0,0,0]</min><max>[1,.25,.125]</max></box><res>[2,2,1]</res><velocity>[0,0,0]</velocity>
+<temperature>x &lt; .5 ? 300 : 400</temperature></geom_object></material></MPM></MaterialProperties>
+<DataArchiver><filebase>o.uda</filebase><outputInterval>.05</outputInterval><save label="ThermalEnergy"/>
+<save label="p.x"/><save label="p.temperature"/></DataArchiver></Uintah_specification>"""
+
+
+class HeatInSolids(SceneTest):
+    def test_conduction_limits_the_time_step(self):
+        for interpolator in ("linear", "gimp", "cpdi", "3rdorderBS"):
+            for conductivity in (1e6, 1e7):
+                with self.subTest(interpolator=interpolator, conductivity=conductivity):
+                    text = self.scene(scene(interpolator, conductivity))
+                    self.assertIn("heat conduction", run(text).report["time_step_limits"])
+                    temperature = last_state(text, "p.temperature")["p.temperature [K]"]
+                    self.assertGreater(min(temperature), 300 - 1e-9)
+                    self.assertLess(max(temperature), 400 + 1e-9)
+                    energy = [line[1] for line in globals_of(text, "ThermalEnergy")["ThermalEnergy"]]
+                    self.assertLess(max(energy) - min(energy), 1e-11 * energy[0])
+
+    def test_waves_limit_the_time_step_of_poor_conductors(self):
+        self.assertEqual(list(run(self.scene(scene("gimp", 10))).report["time_step_limits"]), ["wave speed"])
+
+
+if __name__ == "__main__":
+    unittest.main()
