@@ -267,14 +267,28 @@ void refuseOscillatingBodies(const Element& root, int solids, Diagnostics& diagn
 void refuseNamesOfBodies(const ice::GasScene& scene, Diagnostics& diagnostics) {
   if (!scene.tracers) return;
   namespace body = mpm::solid::p;
-  const std::vector<std::string_view> taken{
-      body::mass.name,   body::volume.name,           body::temperature.name, body::temperatureChange.name,
-      body::damage.name, body::failureThreshold.name, body::localized.name,   body::failureTime.name,
-      body::color.name,  body::surface.name,          body::viscosity.name,   body::strainEnergy.name,
-      p::unburned.name};
+  const std::vector<std::string_view> taken{body::mass.name,
+                                            body::volume.name,
+                                            body::temperature.name,
+                                            body::temperatureChange.name,
+                                            body::damage.name,
+                                            body::failureThreshold.name,
+                                            body::localized.name,
+                                            body::failureTime.name,
+                                            body::color.name,
+                                            body::surface.name,
+                                            body::viscosity.name,
+                                            body::strainEnergy.name,
+                                            body::stress.name,
+                                            body::deformationMeasure.name,
+                                            body::velocityGradient.name,
+                                            body::size<3>.name,
+                                            body::externalForce<3>.name,
+                                            p::boxEdges<3>.name,
+                                            p::unburned.name};
   for (const ice::TracerScalarSettings& one : scene.tracers->scalars)
     for (const std::string_view name : taken)
-      if (one.name == name || "p." + one.name == name)
+      if (ice::particleName(one.name) == name)
         diagnostics.error(one.where, "Models/Model",
                           fmt::format("the name '{}' is given twice: bodies have a variable {}", one.name, name));
 }

@@ -230,8 +230,12 @@ class Mistakes(RefusedSceneTest):
             (model(clone("press_CC").replace("/></", "/><CCVarLabel label='press_CC'/></")),
              "'press_CC' is given twice"),
             (model() + model(), 'a second <Model type="TracerParticles"> is not available'),
-            (model("<newVariables/>"), "Uintah's present name of the tag, <cloneVariables>"),
+            (model("<newVariables/>"), "write <cloneVariables>, Uintah's present name"),
             (model(scalar() + scalar("p.q")), "the name 'p.q' is given twice"),
+            (model(scalar() + scalar("q_totalDecay")), "the name 'q_totalDecay' is given twice, or belongs to another"),
+            (model(clone("press_CC") + scalar("clone-press_CC")), "the name 'clone-press_CC' is given twice"),
+            (model(scalar("a/b")), "found the name 'a/b', expected letters, digits"),
+            (model("<timeStart>.3</timeStart><timeStop>.1</timeStop>"), "timeStop, 0.1 s, is before timeStart, 0.3 s"),
             (model(initial=-1), "particlesPerCell"),
             (model(initial=70000), "a cell can contain at most 65536 tracer particles at the start"),
             (model(scalar("q", ' type="variable"><filename>none.csv</filename>')), "there is no such file"))
@@ -239,8 +243,9 @@ class Mistakes(RefusedSceneTest):
             self.assert_refused(with_tracers(SCALARS.read_text(), tracers), sentence)
 
     def test_names_of_bodies_are_refused(self):
-        text = with_tracers(fsi.DISC, model(scalar("q"), material=gas_of(fsi.DISC)))
-        self.assert_refused(text, "the name 'q' is given twice: bodies have a variable p.q")
+        for name in ("q", "stress", "boxEdges"):
+            text = with_tracers(fsi.DISC, model(scalar(name), material=gas_of(fsi.DISC)))
+            self.assert_refused(text, f"the name '{name}' is given twice: bodies have a variable p.{name}")
 
     def test_levels_are_refused(self):
         amr = ('<AMR><Regridder type="Tiled"><adaptive>true</adaptive><max_levels>2</max_levels><min_patch_size>'

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "core/input/refuse.hpp"
@@ -85,6 +86,25 @@ const Schema<ClonesSection>& clonesSchema() {
   return schema;
 }
 
+/// Reports a scalar whose name has characters that files cannot have, or belongs to one of the variables `taken`; adds
+/// the names of its variables to these.
+void checkName(const TracerScalarSection& one, std::set<std::string>& taken, Diagnostics& diagnostics) {
+  const std::string path = fmt::format("{}/scalar", tracersPath);
+  const auto isAllowed = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
+  };
+  if (one.name.empty() || !std::all_of(one.name.begin(), one.name.end(), isAllowed))
+    diagnostics.error(one.where, path,
+                      fmt::format("found the name '{}', expected letters, digits, '_', '-' and '.'", one.name));
+  const std::string name = particleName(one.name);
+  bool isNew = taken.insert(name).second;
+  if (one.decay)
+    for (const char* suffix : {"_totalDecay", "_expDecayCoef"}) isNew = taken.insert(name + suffix).second && isNew;
+  if (!isNew)
+    diagnostics.error(one.where, path,
+                      fmt::format("the name '{}' is given twice, or belongs to another variable", one.name));
+}
+
 }  // namespace
 
 const Schema<TracersSection>& tracersSchema() {
@@ -99,7 +119,7 @@ const Schema<TracersSection>& tracersSchema() {
         .requiredSection("tracer", &TracersSection::tracer, tracerSchema())
         .ignored("modelPreviouslyInitialized", "a restarted run has the tracers of its checkpoint");
     input::refuseSwitch(tags, "reinitializeDomain", "a run starts with <initialization>");
-    input::refuseTag(tags, "newVariables", "Uintah's present name of the tag, <cloneVariables>");
+    input::refuseTag(tags, "newVariables", "write <cloneVariables>, Uintah's present name of the tag");
     return tags;
   }();
   return schema;
@@ -114,12 +134,13 @@ TracerSettings settingsOfTracers(const TracersSection& read, Diagnostics& diagno
   settings.initial = read.tracer.initial.list;
   settings.sources = read.tracer.sources.value_or(TracerRegions()).list;
   settings.clones = read.clones.value_or(ClonesSection()).list;
+  if (read.stop && *read.stop < read.start)
+    diagnostics.error(read.where, tracersPath,
+                      fmt::format("timeStop, {:g} s, is before timeStart, {:g} s", *read.stop, read.start));
   std::set<std::string> names{"p.x", "p.velocity", "p.displacement", "p.particleID"};
+  for (const ClonedVariable& one : settings.clones) names.insert("p.clone-" + one.name);
   for (const TracerScalarSection& one : read.scalars) {
-    const std::string name = one.name.starts_with("p.") ? one.name : "p." + one.name;
-    if (!names.insert(name).second)
-      diagnostics.error(one.where, fmt::format("{}/scalar", tracersPath),
-                        fmt::format("the name '{}' is given twice, or belongs to another variable", one.name));
+    checkName(one, names, diagnostics);
     settings.scalars.push_back({.where = one.where,
                                 .name = one.name,
                                 .initialValue = one.initialValue,

@@ -44,8 +44,7 @@ struct TracersSection {
 const input::Schema<TracersSection>& tracersSchema();
 /// The settings of tracers. Reports names that are given twice, and files of coefficients that cannot be read.
 TracerSettings settingsOfTracers(const TracersSection& read, input::Diagnostics& diagnostics);
-/// Checks that the gas of the tracers and the variables that they clone exist, beside `solids` bodies. Notes that none
-/// are made at the start if they may be made only later.
+/// Checks that the gas of the tracers and the variables that they clone exist, beside `solids` bodies.
 void checkTracers(const GasScene& scene, int solids, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::ice

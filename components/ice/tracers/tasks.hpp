@@ -27,8 +27,11 @@ void findFlow(const Patch& patch, CellView<const double> density, CellView<const
 /// Generation and Quasi-Monte Carlo Methods, SIAM 1992, chapter 3; with D = 1 these are multiples of the golden ratio.
 template <int D>
 Vec<D> placeInCell(std::uint64_t n) {
-  double g = 1.5;
-  for (int k = 0; k < 60; ++k) g = std::pow(1 + g, 1.0 / (D + 1));
+  static const double g = [] {
+    double root = 1.5;
+    for (int k = 0; k < 60; ++k) root = std::pow(1 + root, 1.0 / (D + 1));
+    return root;
+  }();
   Vec<D> place;
   double step = 1;
   for (int d = 0; d < D; ++d) {

@@ -5,19 +5,14 @@
 
 namespace tushar::ice {
 
-namespace {
-
-/// The name of a scalar in Tushar, where variables of particles begin with `p.`.
 std::string particleName(const std::string& name) { return name.starts_with("p.") ? name : "p." + name; }
-
-}  // namespace
 
 TracerScalar::TracerScalar(TracerScalarSettings settings)
     : settings_(std::move(settings)),
       name_(particleName(settings_.name)),
       total_decay_name_(name_ + "_totalDecay"),
       coefficient_name_(name_ + "_expDecayCoef"),
-      cells_name_("c." + name_.substr(2) + "_expDecayCoef"),
+      cells_name_("c.tracer-" + name_.substr(2) + "_expDecayCoef"),
       value_{name_, "1", "a quantity that tracers carry"},
       total_decay_{total_decay_name_, "s", "integral of the decay coefficient c2 over time"},
       coefficient_{coefficient_name_, "1", "decay coefficient c2 at the tracer"},

@@ -21,6 +21,9 @@ struct TracerRegion {
   double perCellPerTime = 0;  ///< during the run [1/s]
 };
 
+/// The name of a scalar in Tushar, where variables of particles begin with `p.`.
+std::string particleName(const std::string& name);
+
 /// A quantity that tracers carry, which may fall with time.
 struct TracerScalarSettings {
   Location where;  ///< in the scene

@@ -12,7 +12,7 @@ namespace tushar::mpm::solid {
 ///
 /// What a particle adds to a node beyond a plane, its mirror image adds to the mirror image of this node, with the
 /// components normal to the plane reversed. Nodes on a plane get only what the particles in front of it add: half of
-/// the whole, like nodes of linear functions; this does not matter, since only ratios of sums at a node do.
+/// the whole, like nodes of linear functions. This does not matter where only ratios of sums at a node do.
 template <int D>
 class SymmetryPlanes {
  public:
