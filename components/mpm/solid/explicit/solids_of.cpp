@@ -58,8 +58,7 @@ void SolidsOf<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void SolidsOf<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("mpm::computeStableTimeStep", limitByWaves, with(&problem_.materials),
-                 with(problem_.method.conductsHeat), requiresOld(total::stableTimeStep), computes(delT));
+  tasks.perPatch("mpm::computeStableTimeStep", limitByWaves, requiresOld(total::stableTimeStep), computes(delT));
 }
 
 template <int D>

@@ -139,11 +139,17 @@ struct NodalHeating {
   }
 };
 
+/// Throws NumericalError if the time step is longer than rho c_v h^2 / (2 k), with the smallest cell width h: explicit
+/// conduction, with heat capacities lumped at the nodes, is stable up to that. Source: Hughes, The Finite Element
+/// Method (1987), chapter 8.
+void checkHeatStep(const Level& level, const Material& material, double dt);
+
 /// Computes T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of friction, or the given temperature
 /// on sides of the grid that have one; and dT_i/dt [K/s], the rate of change from T_i to T*_i before boundary
 /// conditions.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, const NodalHeating& h, double dt) {
+  checkHeatStep(patch.level(), material, dt);
   forEach<D>(h.capacity.box(), [&](const Index<D>& node) {
     double change = h.capacity[node] > 0 ? h.heatRate[node] / h.capacity[node] : 0.0;
     if (h.contactRate) change += (*h.contactRate)[node];

@@ -67,18 +67,7 @@ void computeInitialTimeStep(const Patch& patch, const Material& material, Partic
   });
 }
 
-/// Limits the time step to the stable time step that the previous step has computed for this state and, if bodies
-/// conduct heat, to rho c_v h^2 / (2 k) with the smallest cell width h: that of explicit heat conduction by functions
-/// whose heat capacities are lumped at the nodes; Hughes, The Finite Element Method (1987), section 8.2.
-inline void limitByWaves(const Patch& patch, const std::vector<Material>* materials, bool conductsHeat,
-                         double stableTimeStep, Minimum& dt) {
-  dt.add(stableTimeStep, "wave speed");
-  if (!conductsHeat) return;
-  double h = std::numeric_limits<double>::infinity();
-  for (int d = 0; d < patch.level().dimension(); ++d) h = std::min(h, patch.level().spacing(d));
-  for (const Material& material : *materials)
-    if (material.thermalConductivity > 0 && material.specificHeat > 0)
-      dt.add(material.density * material.specificHeat * h * h / (2 * material.thermalConductivity), "heat conduction");
-}
+/// Limits the time step to the stable time step that the previous step has computed for this state.
+inline void limitByWaves(const Patch&, double stableTimeStep, Minimum& dt) { dt.add(stableTimeStep, "wave speed"); }
 
 }  // namespace tushar::mpm::solid
