@@ -34,8 +34,6 @@ struct GimpAxis {
   static constexpr int nodes = 3;
   static constexpr int ghostNodes = 1;
   static constexpr bool hasSize = true;
-  /// Overlaps of particles and cells up to this size, in cells, are round-off of particles whose edges lie on nodes.
-  static constexpr double leastOverlap = 1e-12;
   static double support(double size) { return 1 + 0.5 * size; }
 
   template <class Real>
@@ -57,12 +55,11 @@ struct GimpAxis {
   // The particle lies within the cells on either side of its middle node, one part below the node and one above. The
   // mean of a linear function over a part is its value in the middle of the part. The code has no branches and does not
   // subtract large numbers: where a particle barely touches a node, S and its slope are small, and the ratio of force
-  // to mass that they determine is accurate only if both are accurate to the last digits. For the same reason, overlaps
-  // that may be round-off alone are ignored: they would give nodes velocities of any size.
+  // to mass that they determine is accurate only if both are accurate to the last digits.
 
   template <class Real>
   [[gnu::always_inline]] static Real positive(const Real& r) {
-    return r > leastOverlap ? r : Real{};
+    return r > 0.0 ? r : Real{};
   }
 };
 

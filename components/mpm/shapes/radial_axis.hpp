@@ -47,7 +47,7 @@ struct RadialAxis<GimpAxis> {
  private:
   /// Adds the integrals of r S, r dS/dr and S over a piece on one side of the node, where S = 1 - side (r - node).
   static void addPiece(double node, int side, double from, double to, double& s, double& ds, double& hoop) {
-    if (to - from <= GimpAxis::leastOverlap) return;
+    if (to <= from) return;
     const double length = to - from, middle = 0.5 * (from + to);
     const auto hat = [&](double r) { return 1 - side * (r - node); };
     s += length / 6 * (from * hat(from) + 4 * middle * hat(middle) + to * hat(to));  // exact: Simpson, quadratic
