@@ -46,18 +46,12 @@ template <int D>
 void Ice<D>::scheduleInitialize(TaskList& tasks) const {
   euler::Euler<D>::scheduleInitialize(tasks);
   for (const auto& one : scalars_) scheduleStartOfScalar<D>(tasks, *one, euler::c::density);
-  if (!tracers_) return;
-  scheduleFlow<D>(tasks);
-  scheduleStartOfTracers<D>(tasks, *tracers_, this->settings().gas, tracers_->ofGases());
+  scheduleStartAlone<D>(tasks, tracers_.get(), this->settings().gas);
 }
 
 template <int D>
 void Ice<D>::scheduleTracers(TaskList& tasks) const {
-  if (!tracers_) return;
-  scheduleFlow<D>(tasks);
-  scheduleMotionOfTracers<D>(tasks, *tracers_, this->settings().gas, tracers_->ofGases());
-  tasks.relocate(p::x<D>, tracers_->ofGases());
-  scheduleNewTracers<D>(tasks, *tracers_, this->settings().gas, tracers_->ofGases());
+  scheduleStepAlone<D>(tasks, tracers_.get(), this->settings().gas);
 }
 
 template <int D>

@@ -165,6 +165,13 @@ class Tracers(ModuleTest):
         whole = self.snapshots(self.scene(model(times, sources=source(100))), *SMALL)
         self.assertEqual([len(step["p.x"][:]) for step in whole], [0, 16 * 20])
 
+    def test_of_several_sources_begin_at_different_places(self):
+        rest = ("[1,1,0]</velocity>", "[0,0,0]</velocity>")
+        x = self.snapshots(self.scene(model(initial=2, sources=source(50) + source(50)), changes=[rest]),
+                           *SMALL)[-1]["p.x"][:]
+        self.assertEqual(len(x), 2 * 256 + 2 * 16 * 20)
+        self.assertEqual(len(np.unique(x, axis=0)), len(x))
+
     def test_stay_between_walls(self):
         walls = "".join(f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
                         for side in ("x-", "x+", "y-", "y+"))

@@ -61,18 +61,12 @@ template <int D>
 void MixtureIce<D>::scheduleInitialize(TaskList& tasks) const {
   tasks.acrossMaterials("ice::initializeMixture", initializeMixture<D>, gases_,
                         withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>());
-  if (!tracers_) return;
-  scheduleFlow<D>(tasks);
-  scheduleStartOfTracers<D>(tasks, *tracers_, gases_.front().gas, tracers_->ofGases());
+  scheduleStartAlone<D>(tasks, tracers_.get(), gases_.front().gas);
 }
 
 template <int D>
 void MixtureIce<D>::scheduleTracers(TaskList& tasks) const {
-  if (!tracers_) return;
-  scheduleFlow<D>(tasks);
-  scheduleMotionOfTracers<D>(tasks, *tracers_, gases_.front().gas, tracers_->ofGases());
-  tasks.relocate(p::x<D>, tracers_->ofGases());
-  scheduleNewTracers<D>(tasks, *tracers_, gases_.front().gas, tracers_->ofGases());
+  scheduleStepAlone<D>(tasks, tracers_.get(), gases_.front().gas);
 }
 
 template <int D>

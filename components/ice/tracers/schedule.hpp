@@ -68,6 +68,23 @@ void scheduleNewTracers(TaskList& tasks, const TracersOfGases& all, const euler:
   scheduleVelocity<D>(tasks, gas, tracers, true);
 }
 
+/// Adds the tasks that make the tracers of gases without bodies at the start, unless there are none.
+template <int D>
+void scheduleStartAlone(TaskList& tasks, const TracersOfGases* all, const euler::Gas& gas) {
+  if (!all) return;
+  scheduleFlow<D>(tasks);
+  scheduleStartOfTracers<D>(tasks, *all, gas, all->ofGases());
+}
+/// Adds the tasks of a step for the tracers of gases without bodies, unless there are none.
+template <int D>
+void scheduleStepAlone(TaskList& tasks, const TracersOfGases* all, const euler::Gas& gas) {
+  if (!all) return;
+  scheduleFlow<D>(tasks);
+  scheduleMotionOfTracers<D>(tasks, *all, gas, all->ofGases());
+  tasks.relocate(p::x<D>, all->ofGases());
+  scheduleNewTracers<D>(tasks, *all, gas, all->ofGases());
+}
+
 /// Adds the diagnostics of tracers, after those of the gas.
 template <int D, class Materials>
 void scheduleDiagnosticsOfTracers(TaskList& tasks, const TracersOfGases& all, const Materials& tracers) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "components/ice/tracers/flow.hpp"
@@ -50,9 +49,6 @@ Vec<D> pointInCell(const Level& level, const Index<D>& cell, std::uint64_t n) {
   for (int d = 0; d < D; ++d) x[d] = level.nodePosition(d, cell[d]) + place[d] * level.spacing(d);
   return x;
 }
-
-/// Scalars of tracers, for which tasks have variables.
-using TracerScalars = std::vector<std::unique_ptr<const TracerScalar>>;
 
 /// The values of new tracers, one list for each variable.
 template <int D>
@@ -120,6 +116,16 @@ inline constexpr const char* initialRegionPath = "Models/Model/TracerParticles/t
 /// Number of ids for the tracers of a cell at the start.
 inline constexpr ParticleId tracersOfCell = 1 << 16;
 
+/// The number of tracers that the first `count` regions put into a cell at the start.
+template <int D>
+ParticleId placedBefore(const Level& level, const Tracers& tracers, std::size_t count, const Index<D>& cell) {
+  const Vec3 centre = level.expandPoint<D>(level.cellCentre<D>(cell));
+  ParticleId sum = 0;
+  for (std::size_t r = 0; r < count; ++r)
+    if (tracers.initial[r].shape->owns(centre)) sum += tracers.initial[r].perCell;
+  return sum;
+}
+
 /// Makes the tracers at the start, if the time is between those of the settings. Those of several regions in a cell
 /// continue the same sequence of places.
 template <int D>
@@ -130,10 +136,7 @@ void placeTracers(const Patch& patch, const Tracers& tracers, ParticleMaker& mak
   const auto& regions = tracers.initial;
   for (std::size_t r = 0; r < regions.size(); ++r)
     forEachCellOf<D>(patch, regions[r], [&](const Index<D>& cell) {
-      const Vec3 centre = level.expandPoint<D>(level.cellCentre<D>(cell));
-      ParticleId first = 0;
-      for (std::size_t before = 0; before < r; ++before)
-        if (regions[before].shape->owns(centre)) first += regions[before].perCell;
+      const ParticleId first = placedBefore<D>(level, tracers, r, cell);
       const ParticleId end = first + regions[r].perCell;
       if (end > tracersOfCell)
         throw InputError({{regions[r].where, initialRegionPath,
@@ -155,7 +158,7 @@ inline std::uint64_t madeBy(double time, const TracerSettings& settings, const T
 }
 
 /// Makes the tracers that are due in a step from `time` on. Their number follows from the time alone, so that it does
-/// not depend on the lengths of steps.
+/// not depend on the lengths of steps. Those of all sources in a cell, and those at the start, have different places.
 template <int D>
 void insertTracers(const Patch& patch, const Tracers& tracers, ParticleMaker& maker, const TracersOfGases* all,
                    double time, double dt, const KnownTracers<D>& known, const NewTracers<D>& made) {
@@ -168,9 +171,11 @@ void insertTracers(const Patch& patch, const Tracers& tracers, ParticleMaker& ma
                         to = madeBy(time + dt, all->settings(), sources[r]);
     if (from == to) continue;
     forEachCellOf<D>(patch, sources[r], [&](const Index<D>& cell) {
+      const ParticleId placed = placedBefore<D>(level, tracers, tracers.initial.size(), cell);
       for (std::uint64_t n = from; n < to; ++n, ++inserted) {
-        maker.add<D>(cell, isInserted | ((n * sources.size() + r) * level.cells().size() + level.cellNumber<D>(cell)));
-        made.add(pointInCell<D>(level, cell, n), all->scalars());
+        const std::uint64_t number = n * sources.size() + r;
+        maker.add<D>(cell, isInserted | (number * level.cells().size() + level.cellNumber<D>(cell)));
+        made.add(pointInCell<D>(level, cell, placed + number), all->scalars());
       }
     });
   }

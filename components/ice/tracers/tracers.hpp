@@ -91,6 +91,9 @@ class TracerScalar {
   CellLabel<double> coefficient_of_cells_;
 };
 
+/// Scalars of tracers, for which tasks have variables.
+using TracerScalars = std::vector<std::unique_ptr<const TracerScalar>>;
+
 /// A cell variable that tracers can show.
 struct Cloneable {
   std::string name;  ///< in the scene: that of Uintah, or that of Tushar
@@ -132,7 +135,7 @@ class TracersOfGases {
 
   const TracerSettings& settings() const { return settings_; }
   const std::vector<Tracers>& ofGases() const { return tracers_; }
-  const std::vector<std::unique_ptr<const TracerScalar>>& scalars() const { return scalars_; }
+  const TracerScalars& scalars() const { return scalars_; }
   const std::vector<std::unique_ptr<const TracerClone>>& clones() const { return clones_; }
   bool hasSources() const { return !settings_.sources.empty(); }
   /// Adds the names of scalars in Uintah, each with the name in Tushar.
@@ -141,7 +144,7 @@ class TracersOfGases {
  private:
   TracerSettings settings_;
   std::vector<Tracers> tracers_;
-  std::vector<std::unique_ptr<const TracerScalar>> scalars_;
+  TracerScalars scalars_;
   std::vector<std::unique_ptr<const TracerClone>> clones_;
 };
 

@@ -38,7 +38,7 @@ class SymmetryPlanes {
   /// Whether a particle at `at`, in cells, whose functions reach as far as `support`, may add something to nodes
   /// beyond.
   bool mayBeTouched(const Vec<D>& at, const Vec<D>& support) const {
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-9;  // in favour of `true`: the stencil decides
     if (level_.boxes()) return any_;
     const Box& cells = level_.cells();
     bool may = false;
