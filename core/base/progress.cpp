@@ -22,12 +22,16 @@ void Progress::line(const std::string& text) {
 
 bool Progress::due() { return !quiet_ && Clock::now() >= next_; }
 
-void Progress::live(int step, double time, double dt, double maxTime) {
+void Progress::begin(double done) {
+  started_ = Clock::now();
+  done_at_start_ = done;
+}
+
+void Progress::live(int step, double time, double dt, double done) {
   const auto now = Clock::now();
   next_ = now + period_;
   const double elapsed = std::chrono::duration<double>(now - started_).count();
-  const double done = maxTime > 0 ? time / maxTime : 0;
-  const double left = done > 0 && done < 1 ? elapsed / done - elapsed : 0.0;
+  const double left = done > done_at_start_ && done < 1 ? elapsed * (1 - done) / (done - done_at_start_) : 0.0;
   if (!terminal_)
     return line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} {:.0f} %, {:.0f} s left", step, time, dt,
                             100 * done, left));

@@ -18,8 +18,10 @@ class Progress {
 
   /// Prints a permanent line.
   void line(const std::string& text);
-  /// Draws the live line, or writes a line to a file. `time`, `dt` and `maxTime` [s].
-  void live(int step, double time, double dt, double maxTime);
+  /// Starts to measure how fast the run proceeds. `done` is the fraction of the whole run that is done already.
+  void begin(double done);
+  /// Draws the live line, or writes a line to a file. `time` and `dt` [s]; `done` is the fraction of the run.
+  void live(int step, double time, double dt, double done);
   /// Ends the live line.
   void finish();
   /// Whether the next live() is due, at most ten times a second; cheap enough to call in every step.
@@ -30,6 +32,7 @@ class Progress {
   std::FILE* stream_;
   Clock::duration period_;  ///< time between live lines
   Clock::time_point started_, next_;
+  double done_at_start_ = 0;  ///< fraction of the run that was done at started_
 };
 
 }  // namespace tushar

@@ -216,6 +216,7 @@ void Simulation::initializeOnce() {
 
 void Simulation::loop() {
   report_.beginLoop(outputSeconds());
+  run_.progress.begin(run_.time.fractionDone());
   try {
     while (!hasEnded()) step();
   } catch (const NumericalError& error) {
@@ -230,7 +231,7 @@ void Simulation::step() {
   advance();
   addToSums();
   level_steps_ ? report_.noteStep(level_steps_->steps()) : report_.noteStep();
-  if (run_.progress.due()) run_.progress.live(time.step(), time.time(), time.delT(), run_.problem.time.maxTime);
+  if (run_.progress.due()) run_.progress.live(time.step(), time.time(), time.delT(), time.fractionDone());
   regridder_.regridIfDue();
   patch_cutter_.cutIfDue();
   rebalancer_.balanceIfDue();

@@ -11,6 +11,12 @@ namespace tushar::simulation {
 
 bool TimeControl::done() const { return time_ >= settings_.maxTime || step_ >= settings_.maxTimesteps; }
 
+double TimeControl::fractionDone() const {
+  const double time = settings_.maxTime - settings_.initTime;
+  const double byTime = time > 0 ? (time_ - settings_.initTime) / time : 0;
+  return std::max(byTime, static_cast<double>(step_) / std::max(settings_.maxTimesteps, 1));
+}
+
 void TimeControl::lower(double& dt, double most, const data::Reason& limit) {
   if (!(most < dt)) return;
   dt = most;

@@ -37,6 +37,8 @@ class TimeControl {
   int step() const { return step_; }
   /// Whether maxTime or max_Timesteps has been reached.
   bool done() const;
+  /// The fraction of the run that is done, by time or by steps, whichever is larger.
+  double fractionDone() const;
 
   /// The next time step [s]: timestep_multiplier times `stable`, limited by max_delt_increase, delt_min and delt_max;
   /// at the start no longer than delt_init, even if that is below delt_min; and, if the scene requests it, such that

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
+#include <string>
+#include <thread>
 
 namespace tushar {
 
@@ -25,7 +28,7 @@ TEST(Progress, GoesToAFileALineAPeriod) {
   const File file = temporary();
   Progress progress(false, file.get(), std::chrono::nanoseconds(1));
   EXPECT_TRUE(progress.due());
-  progress.live(7, 0.5, 0.01, 2);
+  progress.live(7, 0.5, 0.01, 0.25);
   progress.line("saved");
   progress.finish();
   const std::string text = textOf(file);
@@ -34,12 +37,24 @@ TEST(Progress, GoesToAFileALineAPeriod) {
   EXPECT_EQ(text.find_first_of("\r\033"), std::string::npos) << text;
 }
 
+TEST(Progress, OfARunThatContinuesCountsOnlyItsOwnSteps) {
+  const File file = temporary();
+  Progress progress(false, file.get());
+  progress.begin(0.5);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  progress.live(7, 0.5, 0.01, 0.5 + 1e-4);
+  const std::string text = textOf(file);
+  const std::size_t at = text.find("%, ");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_GT(std::stod(text.substr(at + 3)), 0.02 * (0.4999 / 1e-4) - 1) << text;
+}
+
 TEST(Progress, IsNotDueBeforeTheFirstMinuteNorTwiceInOne) {
   const File file = temporary();
   Progress minutes(false, file.get());
   EXPECT_FALSE(minutes.due());
   Progress hours(false, file.get(), std::chrono::hours(1));
-  hours.live(1, 0.1, 0.1, 1);
+  hours.live(1, 0.1, 0.1, 0.1);
   EXPECT_FALSE(hours.due());
 }
 

@@ -134,6 +134,18 @@ TEST(TimeControl, StepsToMaxTimeIfNothingLimitsTheStep) {
   EXPECT_EQ(time.limits().count("maxTime"), 1u);
 }
 
+TEST(TimeControl, KnowsWhichFractionOfTheRunIsDone) {
+  TimeSettings settings = until(3);
+  settings.initTime = 1;
+  settings.maxTimesteps = 8;
+  TimeControl time(settings);
+  EXPECT_EQ(time.fractionDone(), 0);
+  time.resume(2, 2, 1);
+  EXPECT_EQ(time.fractionDone(), 0.5) << "by time";
+  time.resume(6, 2, 1);
+  EXPECT_EQ(time.fractionDone(), 0.75) << "by steps";
+}
+
 TEST(TimeControl, RefusesStepsThatLeadNowhere) {
   EXPECT_EQ(refusal(0), "the time step became 0 s (step 1, time 0 s)");
   EXPECT_EQ(refusal(never), "");  // delt_max bounds it
