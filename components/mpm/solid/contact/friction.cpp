@@ -1,5 +1,6 @@
 #include "components/mpm/solid/contact/friction.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "components/mpm/solid/transfer/extent.hpp"
@@ -12,6 +13,11 @@ namespace {
 constexpr double leastTraction = 1e-12;
 /// The smallest mass gradient that is normalised [kg/m].
 constexpr double leastGradient = 1e-15;
+/// The same, as a fraction of the mass at the node per cell: less is the rounding error of a sum that is 0, as inside a
+/// body.
+constexpr double leastGradientShare = 1e-10;
+/// Two mass gradients differ if one is longer than the other by more than this fraction.
+constexpr double gradientTolerance = 1e-10;
 
 /// All bodies that take part, at one node.
 template <int D>
@@ -41,9 +47,15 @@ void forEachMeeting(const Box& nodes, const std::vector<std::size_t>& bodies, co
     });
 }
 
+/// Whether a mass gradient is more than a rounding error at a node with this mass.
 template <int D>
-Gathering<D> gatherBodies(const std::vector<std::size_t>& bodies, const Records& records, const Surfaces& surfaces,
-                          const Index<D>& node) {
+bool hasDirection(const Level& level, const Vec<D>& gradient, double mass) {
+  return gradient.norm() > std::max(leastGradient, leastGradientShare * mass / level.minSpacing());
+}
+
+template <int D>
+Gathering<D> gatherBodies(const Level& level, const std::vector<std::size_t>& bodies, const Records& records,
+                          const Surfaces& surfaces, const Index<D>& node) {
   Gathering<D> all;
   for (const std::size_t m : bodies) {
     const NodeRecord& record = records[m][node];
@@ -53,11 +65,14 @@ Gathering<D> gatherBodies(const std::vector<std::size_t>& bodies, const Records&
     all.mass += record[lane::mass];
     all.volume += surface.volume();
     const Vec<D> gradient = surface.massGradient<D>();
-    if (gradient.squaredNorm() <= all.normal.squaredNorm()) continue;
+    if (gradient.norm() <= (1 + gradientTolerance) * all.normal.norm()) continue;
     all.normal = gradient;
     all.steepest = m;
   }
-  if (all.normal.squaredNorm() > 0) all.normal.normalize();
+  if (hasDirection<D>(level, all.normal, all.mass))
+    all.normal.normalize();
+  else
+    all.normal.setZero();
   return all;
 }
 
@@ -84,21 +99,22 @@ Vec<D> gradientOf(const Surfaces& surfaces, std::size_t m, const Index<D>& node)
 }
 
 /// The unit normal that points out of a body at a node, from the mass gradient of the body and, if Contact::oneNormal,
-/// from those of the other bodies; not normalised if it is nearly 0.
+/// from those of the other bodies; 0 if that is nearly 0.
 template <int D>
 Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces& surfaces,
                 std::size_t m, const Index<D>& node) {
   Vec<D> others = Vec<D>::Zero();
   double mass = 0;
+  const double own = records[m][node][lane::mass];
   for (std::size_t n = 0; n < records.size() && contact.oneNormal; ++n) {
     if (n == m) continue;
     others += records[n][node][lane::mass] * gradientOf<D>(surfaces, n, node);
     mass += records[n][node][lane::mass];
   }
   Vec<D> normal = 0.5 * (gradientOf<D>(surfaces, m, node) - (mass > 0 ? Vec<D>(others / mass) : others));
+  if (!hasDirection<D>(level, normal, own + mass)) return Vec<D>::Zero();
   for (int d = 0; d < D && contact.normalsInCells; ++d) normal[d] *= level.spacing(d);
-  const double size = normal.norm();
-  return size > leastGradient ? Vec<D>(normal / size) : normal;
+  return normal.normalized();
 }
 
 /// Whether the stresses of all bodies at a node are compressive along the node's normal.
@@ -151,7 +167,7 @@ void applyFriction(const Patch& patch, const Contact& contact, double dt, const 
   const bool skipsOutside = !contact.keepsMomentum && level.boxes();
   forEachMeeting<D>(counted, bodies, rows, records, [&](const Index<D>& node) {
     if (skipsOutside && !level.isNodeInside<D>(node)) return;
-    const Gathering<D> all = gatherBodies<D>(bodies, records, surfaces, node);
+    const Gathering<D> all = gatherBodies<D>(level, bodies, records, surfaces, node);
     if (all.normal.isZero() || all.volume <= leastVolume) return;
     const bool together =
         contact.keepsMomentum && !contact.onlyOnApproach && arePressed<D>(level, contact, records, surfaces, all, node);

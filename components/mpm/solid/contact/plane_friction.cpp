@@ -14,6 +14,8 @@ constexpr int mostSteps = 51;
 constexpr double tolerance = 1e-7;
 /// A body with less mass than this at a node is ignored there [kg], as in Uintah.
 constexpr double leastMass = 1e-16;
+/// Bodies that are less than this fraction of a cell apart touch: faces that meet differ by their rounding errors.
+constexpr double touchTolerance = 1e-9;
 
 template <int N>
 using Square = Eigen::Matrix<double, N, N>;
@@ -84,10 +86,11 @@ int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
   return -1;
 }
 
-/// Whether, at a node, a body extends across the plane into the body to which the plane belongs.
+/// Whether, at a node, a body extends across the plane into the body to which the plane belongs, or touches it except
+/// for rounding errors.
 template <int D>
-bool overlaps(const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
-  return (*planes[m].prominence)[node] <= (*planes[first].prominence)[node];
+bool overlaps(const Level& level, const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
+  return (*planes[m].prominence)[node] <= (*planes[first].prominence)[node] + touchTolerance * level.minSpacing();
 }
 
 /// The friction coefficient mu at a node.
@@ -107,11 +110,11 @@ double frictionAt(const Contact& contact, const SeparatingPlanes<D>& planes, con
 
 /// Whether a body may slide on a master at a node: the body takes part, and both are present and overlap.
 template <int D>
-bool meetsMaster(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes, int first,
-                 std::size_t m, const Index<D>& node) {
+bool meetsMaster(const Level& level, const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes,
+                 int first, std::size_t m, const Index<D>& node) {
   return static_cast<int>(m) != contact.master && contact.concerns(static_cast<int>(m)) &&
          records[contact.master][node][lane::mass] != 0 && records[m][node][lane::mass] != 0 &&
-         overlaps<D>(planes, first, m, node);
+         overlaps<D>(level, planes, first, m, node);
 }
 
 /// Calls `visit(node, m, touch)` for each body m that meets the master at a node and moves against it.
@@ -125,7 +128,7 @@ void forEachTouch(const Patch& patch, const Contact& contact, double time, doubl
     const Vec<D> moving = masterVelocity<D>(patch, contact, motion, dt, records, node);
     const Vec<D> normal = -(*planes[first].normal)[node];
     for (std::size_t m = 0; m < records.size(); ++m) {
-      if (!meetsMaster<D>(contact, records, planes, first, m, node)) continue;
+      if (!meetsMaster<D>(patch.level(), contact, records, planes, first, m, node)) continue;
       const Touch<D> touch{normal, lanes<D>(records[m][node], lane::velocity) - moving, false};
       if (touch.velocity.dot(normal) > 0) visit(node, m, touch);
     }
@@ -155,7 +158,8 @@ Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double w
 }
 
 template <int D>
-void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes) {
+void slideAlongPlanes(const Level& level, const Contact& contact, const Records& records,
+                      const SeparatingPlanes<D>& planes) {
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
     const int first = foremost<D>(planes, node);
     if (first < 0) return;
@@ -171,7 +175,7 @@ void slideAlongPlanes(const Contact& contact, const Records& records, const Sepa
     for (std::size_t m = 0; m < records.size(); ++m) {
       NodeRecord& record = records[m][node];
       if (static_cast<int>(m) == first || !contact.concerns(static_cast<int>(m))) continue;
-      if (record[lane::mass] <= leastMass || !overlaps<D>(planes, first, m, node)) continue;
+      if (record[lane::mass] <= leastMass || !overlaps<D>(level, planes, first, m, node)) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity);
       const Touch<D> touch{normal, v - momentum / mass, false};
       const Vec<D> change = frictionImpulse<D>(touch, frictionAt<D>(contact, planes, node)).change;
@@ -212,9 +216,9 @@ void sumSlidingReaction(const Patch& patch, const Contact& contact, const Accele
 template Vec<1> separatingNormal<1>(const std::vector<SidedParticle<1>>&, double);
 template Vec<2> separatingNormal<2>(const std::vector<SidedParticle<2>>&, double);
 template Vec<3> separatingNormal<3>(const std::vector<SidedParticle<3>>&, double);
-template void slideAlongPlanes<1>(const Contact&, const Records&, const SeparatingPlanes<1>&);
-template void slideAlongPlanes<2>(const Contact&, const Records&, const SeparatingPlanes<2>&);
-template void slideAlongPlanes<3>(const Contact&, const Records&, const SeparatingPlanes<3>&);
+template void slideAlongPlanes<1>(const Level&, const Contact&, const Records&, const SeparatingPlanes<1>&);
+template void slideAlongPlanes<2>(const Level&, const Contact&, const Records&, const SeparatingPlanes<2>&);
+template void slideAlongPlanes<3>(const Level&, const Contact&, const Records&, const SeparatingPlanes<3>&);
 template void slideOnMaster<1>(const Patch&, const Contact&, double, double, const Records&,
                                const SeparatingPlanes<1>&);
 template void slideOnMaster<2>(const Patch&, const Contact&, double, double, const Records&,

@@ -50,7 +50,8 @@ inline constexpr double noProminence = -std::numeric_limits<double>::max();
 /// body with the most mass at a node and each other body that overlaps it across the plane and approaches the centre of
 /// mass. Momentum is conserved.
 template <int D>
-void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes);
+void slideAlongPlanes(const Level& level, const Contact& contact, const Records& records,
+                      const SeparatingPlanes<D>& planes);
 
 /// Stops bodies that overlap the master and approach it, and slows their slip by friction. Then gives the master its
 /// prescribed velocity, if it has one.

@@ -142,6 +142,32 @@ TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
   EXPECT_LT((bodies.velocity(1) - Vec<2>(-0.2, -0.4)).norm(), roundOff);
 }
 
+TEST(Friction, HasNoNormalWhereMassGradientsAreRoundOff) {
+  for (const bool keepsMomentum : {false, true}) {
+    TwoBodies bodies;
+    bodies.contact.keepsMomentum = keepsMomentum;
+    bodies.setGradient(0, {3e-14, 1e-14});
+    bodies.setGradient(1, {-2e-14, 0});
+    for (const int m : {0, 1}) bodies.press(m);
+    bodies.move(0, {1, -1});
+    bodies.slide();
+    EXPECT_EQ(bodies.velocity(0), Vec<2>(1, -1)) << "both fill all cells around the node";
+    EXPECT_EQ(bodies.velocity(1), Vec<2>(0, 0));
+  }
+}
+
+TEST(Friction, TakesTheNormalOfTheFirstBodyIfMassChangesAsMuchInAnother) {
+  for (const double more : {-1e-15, 1e-15}) {
+    TwoBodies bodies;
+    bodies.contact.keepsMomentum = true;
+    bodies.setGradient(0, {0, -1});
+    bodies.setGradient(1, {1 + more, 0});
+    bodies.move(0, {1, -1});
+    bodies.slide();
+    EXPECT_LT((bodies.velocity(0) - Vec<2>(1, -0.5)).norm(), roundOff);
+  }
+}
+
 TEST(Friction, TakesTheOwnNormalOfEachBodyIfItSaysSo) {
   TwoBodies bodies;
   bodies.contact.oneNormal = false;

@@ -74,7 +74,7 @@ struct TwoBodies {
                      NodeView<const double>(color[m].data(), nodes)});
     return all;
   }
-  void slide() { slideAlongPlanes<2>(contact, views(), planes()); }
+  void slide() { slideAlongPlanes<2>(level, contact, views(), planes()); }
 
   Grid grid;
   const Level& level = grid.level();
@@ -113,6 +113,16 @@ TEST(PlaneFriction, LeavesBodiesAloneThatPartOrDoNotOverlap) {
   bodies.prominence[1][bodies.centre] = 1.02;
   bodies.slide();
   EXPECT_EQ(bodies.velocity(1), Vec<2>(9, -3)) << "a gap is between them";
+}
+
+TEST(PlaneFriction, TakesFacesThatMeetExceptForRoundOffAsTouching) {
+  for (const double gap : {-1e-15, 0.0, 1e-15}) {
+    TwoBodies bodies;
+    bodies.move(1, {9, -3});
+    bodies.prominence[1][bodies.centre] = bodies.prominence[0][bodies.centre] + gap;
+    bodies.slide();
+    EXPECT_LT((bodies.velocity(1) - Vec<2>(9, -1)).norm(), roundOff) << gap;
+  }
 }
 
 TEST(PlaneFriction, TakesMuByTheColorOfTheMaster) {

@@ -12,7 +12,7 @@ void applyContact(const Patch& patch, const Contact& contact, double time, doubl
                   const SeparatingPlanes<D>& planes) {
   if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
   if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, dt, records);
-  if (contact.type == Contact::Type::planeFriction) slideAlongPlanes<D>(contact, records, planes);
+  if (contact.type == Contact::Type::planeFriction) slideAlongPlanes<D>(patch.level(), contact, records, planes);
   if (contact.type == Contact::Type::specifiedFriction) slideOnMaster<D>(patch, contact, time, dt, records, planes);
 }
 
