@@ -16,8 +16,6 @@ constexpr double leastGradient = 1e-15;
 /// The same, as a fraction of the mass at the node per cell: less is the rounding error of a sum that is 0, as inside a
 /// body.
 constexpr double leastGradientShare = 1e-10;
-/// Two mass gradients differ if one is longer than the other by more than this fraction.
-constexpr double gradientTolerance = 1e-10;
 
 /// All bodies that take part, at one node.
 template <int D>
@@ -65,7 +63,7 @@ Gathering<D> gatherBodies(const Level& level, const std::vector<std::size_t>& bo
     all.mass += record[lane::mass];
     all.volume += surface.volume();
     const Vec<D> gradient = surface.massGradient<D>();
-    if (gradient.norm() <= (1 + gradientTolerance) * all.normal.norm()) continue;
+    if (gradient.norm() <= (1 + tieTolerance) * all.normal.norm()) continue;
     all.normal = gradient;
     all.steepest = m;
   }

@@ -5,6 +5,10 @@
 
 namespace tushar::mpm::solid {
 
+/// Where the body with the most mass, or the steepest, determines a normal, values that differ by less than this
+/// fraction are equal: rounding errors must not choose the body.
+inline constexpr double tieTolerance = 1e-10;
+
 /// The contact of a body with others at a node.
 template <int D>
 struct Touch {

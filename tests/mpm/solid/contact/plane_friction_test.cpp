@@ -159,6 +159,17 @@ TEST(SpecifiedFriction, FeelsTheForceOfThoseThatItStops) {
   EXPECT_NEAR(reaction.y.total(), 20, 1e-12);
 }
 
+TEST(Precedence, IsOfTheFirstBodyIfAnotherIsAsHeavy) {
+  for (const double more : {-1e-15, 1e-15}) {
+    TwoBodies bodies;
+    bodies.records[1][bodies.centre][lane::mass] = 2 * (1 + more);
+    std::vector<NodeView<const NodeRecord>> records;
+    for (const auto& one : bodies.records) records.emplace_back(one.data(), bodies.nodes);
+    const std::vector<Material> materials(2);
+    EXPECT_EQ((Precedence(materials, {}).leader<2>(records, {0, 1}, Index<2>{{1, 1}})), 0) << more;
+  }
+}
+
 TEST(Precedence, IsOfTheHeaviestUnlessOneIsRigidOrMayNot) {
   TwoBodies bodies;
   std::vector<Material> materials(2);

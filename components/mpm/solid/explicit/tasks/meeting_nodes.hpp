@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/contact/plane_friction.hpp"
 #include "components/mpm/solid/contact/present.hpp"
 #include "components/mpm/solid/material.hpp"
@@ -25,8 +26,8 @@ struct Precedence {
     }
   }
 
-  /// The index of the material with the most mass of those that meet at a node, or of the rigid one; -1 if fewer than
-  /// two meet. `present` are the indices of the materials that have records.
+  /// The index of the material with the most mass of those that meet at a node, the first one if others have as much,
+  /// or of the rigid one; -1 if fewer than two meet. `present` are the indices of the materials that have records.
   template <int D>
   int leader(const std::vector<NodeView<const NodeRecord>>& records, const std::vector<std::size_t>& present,
              const Index<D>& node) const {
@@ -42,7 +43,7 @@ struct Precedence {
       }
       if (mass <= 1e-8 * total || mass <= 1e-16) continue;
       ++meeting;
-      if (mass <= most) continue;
+      if (mass <= (1 + tieTolerance) * most) continue;
       most = mass;
       heaviest = static_cast<int>(m);
     }
