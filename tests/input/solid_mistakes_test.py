@@ -58,7 +58,7 @@ REFUSED = {
         (BILLET, ("<materials>[0,1]</materials>", "<include_rotation>true</include_rotation>"),
          "needs a contact of type rigid, specified or specified_friction and its <filename>"),
     "a flow of heat into implicit steps":
-        (BEAM, heat_flow("Neumann", "5"), "var: Neumann for Temperature needs <time_integrator>"),
+        (BEAM, heat_flow("Neumann", "5"), "value: found '5'; solids take Neumann for Temperature only with 0"),
     "heat on a surface in implicit steps":
         (BEAM, ("<Grid>", HEAT), "heat_flux: needs <time_integrator> explicit", "MPM/use_load_curves=true"),
     "artificial viscosity in implicit steps":

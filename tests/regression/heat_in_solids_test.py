@@ -50,6 +50,24 @@ class HeatInSolids(SceneTest):
                     energy = [line[1] for line in globals_of(text, "ThermalEnergy")["ThermalEnergy"]]
                     self.assertLess(max(energy) - min(energy), 1e-11 * energy[0])
 
+    def test_insulated_sides_pass_no_heat(self):
+        """A Neumann condition with the value 0 is the natural one: the same bits as none, and no heat is lost."""
+        insulated = '<BCType id="all" label="Temperature" var="Neumann"><value>0</value></BCType></Face>'
+        for interpolator in ("linear", "gimp"):
+            text = scene(interpolator, 1e5).replace("x &lt; .5 ? 300 : 400", "300 + 400 * x + 100 * y").replace(
+                "<delt_max>1<", "<delt_max>7e-4<")
+            with_condition = self.scene(text.replace("</Face>", insulated))
+            states = [last_state(one, "p.temperature") for one in (self.scene(text), with_condition)]
+            self.assertEqual(*(list(state["p.temperature [K]"]) for state in states))
+            energy = [line[1] for line in globals_of(with_condition, "ThermalEnergy")["ThermalEnergy"]]
+            self.assertLess(max(energy) - min(energy), 1e-11 * energy[0])
+
+    def test_flows_of_heat_through_a_side_are_refused(self):
+        flow = '<BCType id="all" label="Temperature" var="Neumann"><value>5</value></BCType></Face>'
+        ended = run(self.scene(scene("gimp", 1e5).replace("</Face>", flow, 1)))
+        self.assertEqual(ended.code, 3)
+        self.assertIn("value: found '5'; solids take Neumann for Temperature only with 0", ended.err)
+
     def test_scenes_that_need_no_temperature_are_not_concerned(self):
         text = scene("gimp", 1e7).replace('<save label="ThermalEnergy"/>', "").replace(
             '<save label="p.temperature"/>', "")

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/body_notes.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
@@ -90,6 +91,22 @@ void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnos
                                      " is heated by plastic work");
     else if (material.thermalConductivity > 0 || sharesHeat)
       diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
+  }
+}
+
+void refuseHeatFlows(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  for (const Element& condition : simulation::boundaryConditions(root)) {
+    if (condition.attribute("label") != boundary::temperature.name ||
+        condition.attribute("var") != nameOf(grid::BoundaryKind::neumann))
+      continue;
+    const std::string id = condition.attribute("id").value_or("all");
+    const auto value = condition.child("value");
+    if (id != "all" && input::parse<int>(id).value >= static_cast<int>(problem.materials.size())) continue;  // a gas
+    if (value && input::parse<double>(value->text()).value != 0.0)
+      diagnostics.error(condition,
+                        "value: found '" + std::string(value->text()) +
+                            "'; solids take Neumann for Temperature only with 0, which insulates the side; with "
+                            "<time_integrator> explicit, <heat_flux> in <PhysicalBC> supplies heat");
   }
 }
 

@@ -23,6 +23,9 @@ void nameMaterials(std::vector<Material>& materials);
 /// Requires specific heats if work or conduction changes temperatures.
 void checkHeat(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
 
+/// Refuses heat flows through sides of the grid: solids do not know how much of a side they touch.
+void refuseHeatFlows(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
+
 /// Completes the settings that depend on the grid: number of particles at each load, their size, cell widths.
 void settleParticles(const Level& level, Problem& problem);
 

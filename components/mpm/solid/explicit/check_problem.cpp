@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "components/mpm/solid/scene_input.hpp"
+
 namespace tushar::mpm::solid {
 
 using input::Diagnostics;
@@ -55,6 +57,7 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
 }  // namespace
 
 void checkProblem(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  refuseHeatFlows(problem, root, diagnostics);
   checkLoads(problem, root, diagnostics);
   checkCorners(problem, root, diagnostics);
   checkContactsOfMethod(problem, root, diagnostics);

@@ -250,13 +250,8 @@ void refuseConditions(const Problem& problem, const Element& root, Diagnostics& 
       diagnostics.error(condition, "id: found '" + id +
                                        "'; with <time_integrator> implicit, materials share their nodes, and a "
                                        "condition applies to all of them");
-    const auto value = condition.child("value");
-    const bool flows = value && input::parse<double>(value->text()).value != 0.0;
-    if (condition.attribute("label") == boundary::temperature.name &&
-        condition.attribute("var") == nameOf(grid::BoundaryKind::neumann) && flows)
-      diagnostics.error(condition,
-                        "var: Neumann for Temperature needs <time_integrator> explicit, unless its value is 0");
   }
+  refuseHeatFlows(problem, root, diagnostics);
 }
 
 template <template <int> class Shape>

@@ -17,13 +17,9 @@ void setTemperature(const Patch& patch, int material, NodeView<double> field) {
     for (const int side : {0, 1}) {
       if (!grid::mayTouchSide(patch, d, side)) continue;
       const auto given = patch.level().boundary(d, side, boundary::temperature, material);
-      if (!given) continue;
-      const Index<D> inwards = side == 0 ? Index<D>::unit(d) : Index<D>{} - Index<D>::unit(d);
-      const double value = given->value, drop = value * patch.level().spacing(d);
+      if (!given || !given->isDirichlet()) continue;
       const auto set = [&](const Box& nodes) {
-        forEach<D>(nodes, [&](const Index<D>& node) {
-          field[node] = given->isDirichlet() ? value : field[node + inwards] - drop;
-        });
+        forEach<D>(nodes, [&](const Index<D>& node) { field[node] = given->value; });
       };
       grid::forEachBoxOnSide(patch, d, side, set);
       grid::forEachBoxBeyond(patch, d, side, [&](const Box& nodes, int) { set(nodes); });

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Applies the conditions of a side: a given temperature (Dirichlet), or a given decrease per metre outwards (Neumann).
+/// Applies the given temperatures of sides (Dirichlet). Other sides are insulated: no heat flows through them.
 template <int D>
 void setTemperature(const Patch& patch, int material, NodeView<double> field);
 
