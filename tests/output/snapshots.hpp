@@ -1,7 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "core/output/snapshot.hpp"
+#include "tests/support/temporary.hpp"
 
 namespace tushar::output {
 
@@ -17,9 +16,7 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     static std::atomic<int> made{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("tushar_output_" + std::to_string(getpid()) + "_" + std::to_string(made++));
-    std::filesystem::create_directories(path_);
+    path_ = test::newFolder("output_" + std::to_string(made++));
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -54,6 +54,12 @@ class Structure(unittest.TestCase):
         long = [file.relative_to(ROOT).as_posix() for file in written if file.read_text().count("\n") > 400]
         self.assertEqual(long, [])
 
+    def test_tests_write_into_the_folder_of_their_process_alone(self):
+        # CTest runs the tests of a file side by side: files that share a name overwrite one another.
+        wrong = [path.relative_to(ROOT).as_posix() for path in (ROOT / "tests").rglob("*.?pp")
+                 if "temp_directory_path" in path.read_text() and "benchmark" not in path.parts]
+        self.assertEqual(wrong, ["tests/support/temporary.hpp"])
+
     def test_the_top_level_holds_what_it_should_and_nothing_else(self):
         listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True)
         if listed.returncode != 0:

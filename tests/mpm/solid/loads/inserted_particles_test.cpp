@@ -5,13 +5,15 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/temporary.hpp"
+
 namespace tushar::mpm::solid {
 namespace {
 
 using Sentences = std::vector<std::string>;
 
 struct File {
-  std::string path = (std::filesystem::temp_directory_path() / "tushar_inserted_particles.dat").string();
+  std::string path = test::temporaryFolder() + "inserted_particles.dat";
   explicit File(const std::string& text) { std::ofstream(path) << text; }
   ~File() { std::filesystem::remove(path); }
 };

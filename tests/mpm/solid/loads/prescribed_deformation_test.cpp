@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "components/mpm/solid/explicit/tasks/deform_particles.hpp"
+#include "tests/support/temporary.hpp"
 
 // A prescribed deformation of a body: its rate, and the files that describe it.
 
@@ -76,7 +77,7 @@ TEST(Deform, FollowsTheSeriesOfTheExponential) {
 }
 
 struct File {
-  std::string path = (std::filesystem::temp_directory_path() / "tushar_prescribed_deformation.inp").string();
+  std::string path = test::temporaryFolder() + "prescribed_deformation.inp";
   explicit File(const std::string& text) { std::ofstream(path) << text; }
   ~File() { std::filesystem::remove(path); }
 };
