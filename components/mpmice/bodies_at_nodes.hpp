@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/transfer/node_record.hpp"
+#include "components/mpmice/box_images.hpp"
 #include "components/mpmice/labels.hpp"
 
 namespace tushar::mpmice {
@@ -11,12 +12,14 @@ template <int D>
 struct BodyAtFaces {
   NodeView<const mpm::solid::NodeRecord> records;
   std::optional<CellView<const double>> free = {};
-  std::optional<CellView<const Vec<D>>> coverage = {};
+  std::optional<CellView<const Vec<D>>> coverage = {}, coverageAtEnd = {};
 
-  static BodyAtFaces from(auto& take, int ghost, bool isOneOfSeveral) {
+  /// For `endsAtPlane`, see Settings.
+  static BodyAtFaces from(auto& take, int ghost, bool isOneOfSeveral, bool endsAtPlane) {
     return {.records = take(requiresNew(g::record, ghost)),
             .free = take(when(isOneOfSeveral, requiresNew(c::freeOfBody, ghost))),
-            .coverage = take(when(isOneOfSeveral, requiresNew(c::coverageOfBody<D>, ghost)))};
+            .coverage = take(when(isOneOfSeveral, requiresNew(c::coverageOfBody<D>, ghost))),
+            .coverageAtEnd = take(when(isOneOfSeveral && endsAtPlane, requiresNew(c::coverageOfBodyAtEnd<D>, ghost)))};
   }
 };
 
@@ -30,7 +33,9 @@ struct BodyAtFaces {
 ///
 /// A node on a side of the grid that the face meets has only half of the mass that it would have inside, and belongs to
 /// half as many faces. So its mass counts twice there, and a plane wall moves as one. So does the mass of a node on a
-/// symmetry plane in front of which the face is, at a distance of a cell: half of it is beyond the plane.
+/// symmetry plane in front of which the face is, at a distance of a cell: half of it is beyond the plane. A face on a
+/// symmetry plane belongs to twice the mass, half of it beyond, and does not move along its axis: it pushes no node
+/// along this axis, because the gas beyond does the opposite.
 template <int D>
 class BodiesAtNodes {
  public:
@@ -38,7 +43,7 @@ class BodiesAtNodes {
 
   BodiesAtNodes(const Level& level, const Records& records) : level_(&level), records_(&records) {
     for (int d = 0; d < D; ++d)
-      for (const int side : {0, 1}) is_mirror_[d][side] = !level.isPeriodic(d) && level.isSymmetry(d, side);
+      for (const int side : {0, 1}) is_mirror_[d][side] = isPlane(level, d, side);
   }
 
   /// The nodes on the grid that belong to the cells on both sides of a cell's lower face along an axis.
@@ -53,34 +58,37 @@ class BodiesAtNodes {
     nodes.upper[axis] = std::min(nodes.upper[axis], level_->cells().upper[axis] + 1);
     return nodes;
   }
+  /// Whether a cell's lower face along an axis is on a symmetry plane; the cell may be just beyond the grid.
+  bool isOnPlane(const Index<D>& cell, int axis) const {
+    const Box& grid = level_->cells();
+    return (is_mirror_[axis][0] && cell[axis] == grid.lower[axis]) ||
+           (is_mirror_[axis][1] && cell[axis] == grid.upper[axis]);
+  }
   /// The mass that a force at the face accelerates [kg], that is, the force divided by the acceleration of velocityAt;
   /// 0 without mass. With one body, and away from sides of the grid, it is the mass at the nodes of nodesAt.
   double massAt(const Index<D>& cell, int axis) const {
-    if (records_->size() == 1) return sumAt(cell, axis, 0, mpm::solid::lane::velocity).inertia();
+    const double both = isOnPlane(cell, axis) ? 2 : 1;
+    if (records_->size() == 1) return both * sumAt(cell, axis, 0, mpm::solid::lane::velocity).inertia();
     double whole = 0, perMass = 0;
     forEachBody(cell, axis, mpm::solid::lane::velocity, [&](std::size_t, double part, const Content& of) {
       whole += part;
       perMass += part * (part / of.inertia());
     });
-    return whole > 0 ? whole * (whole / perMass) : 0;
+    return whole > 0 ? both * whole * (whole / perMass) : 0;
   }
   /// Mean velocity of the solids at the nodes of nodesAt [m/s]; 0 without mass. `lane` selects the velocity before or
   /// after the step in the records.
   Vec<D> velocityAt(const Index<D>& cell, int axis, int lane) const {
-    if (records_->size() == 1) return sumAt(cell, axis, 0, lane).velocity();
-    double whole = 0;
-    Vec<D> sum = Vec<D>::Zero();
-    forEachBody(cell, axis, lane, [&](std::size_t, double part, const Content& of) {
-      whole += part;
-      sum += part * of.velocity();
-    });
-    return whole > 0 ? Vec<D>(sum / whole) : sum;
+    Vec<D> mean = meanVelocityAt(cell, axis, lane);
+    if (isOnPlane(cell, axis)) mean[axis] = 0;
+    return mean;
   }
   /// The component of velocityAt along the axis of the face before and after the step [m/s].
   struct Speeds {
     double before = 0, after = 0;
   };
   Speeds speedsAt(const Index<D>& cell, int axis) const {
+    if (isOnPlane(cell, axis)) return {};
     if (records_->size() > 1)
       return {velocityAt(cell, axis, mpm::solid::lane::before)[axis],
               velocityAt(cell, axis, mpm::solid::lane::velocity)[axis]};
@@ -122,19 +130,35 @@ class BodiesAtNodes {
   }
 
  private:
+  Vec<D> meanVelocityAt(const Index<D>& cell, int axis, int lane) const {
+    if (records_->size() == 1) return sumAt(cell, axis, 0, lane).velocity();
+    double whole = 0;
+    Vec<D> sum = Vec<D>::Zero();
+    forEachBody(cell, axis, lane, [&](std::size_t, double part, const Content& of) {
+      whole += part;
+      sum += part * of.velocity();
+    });
+    return whole > 0 ? Vec<D>(sum / whole) : sum;
+  }
   /// One lane of a record in memory. The operator of a record that cannot change is for records in registers.
   static double numberIn(const mpm::solid::NodeRecord& record, int lane) {
     return reinterpret_cast<const double*>(&record)[lane];
   }
+  struct Multiplicity {
+    double all = 1, withoutPlanes = 1;
+  };
   /// How many times the mass of a node counts at the lower face of a cell: twice for each axis along the face at whose
-  /// ends the node is, and twice if the face is in front of a symmetry plane on which the node is.
-  double multiplicity(const Index<D>& cell, int axis, const Index<D>& node) const {
+  /// ends the node is, and twice if the face is in front of a symmetry plane on which the node is; and how many times
+  /// without what is beyond symmetry planes.
+  Multiplicity multiplicity(const Index<D>& cell, int axis, const Index<D>& node) const {
     const Box& grid = level_->cells();
-    double times = 1;
+    Multiplicity times;
     for (int d = 0; d < D; ++d) {
       const bool isLower = node[d] == grid.lower[d], isUpper = node[d] == grid.upper[d];
-      const bool isAcross = (isLower && is_mirror_[d][0]) || (isUpper && is_mirror_[d][1]);
-      if (d == axis ? isAcross && cell[d] != node[d] : !level_->isPeriodic(d) && (isLower || isUpper)) times *= 2;
+      const bool isMirrored = (isLower && is_mirror_[d][0]) || (isUpper && is_mirror_[d][1]);
+      if (!(d == axis ? isMirrored && cell[d] != node[d] : !level_->isPeriodic(d) && (isLower || isUpper))) continue;
+      times.all *= 2;
+      if (!isMirrored) times.withoutPlanes *= 2;
     }
     return times;
   }
@@ -147,7 +171,7 @@ class BodiesAtNodes {
     return meets;
   }
   /// Calls `visit(node, record, mass, multiplicity)` for the nodes of a body that have mass, which is multiplied by the
-  /// multiplicity.
+  /// whole multiplicity; `multiplicity` is that without planes.
   template <class Visit>
   void forEachAt(const Index<D>& cell, int axis, std::size_t body, Visit&& visit) const {
     const auto& records = (*records_)[body].records;
@@ -157,19 +181,20 @@ class BodiesAtNodes {
       for (int i = 0; i < count; ++i, ++node[0], ++record) {
         const double m = numberIn(*record, mpm::solid::lane::mass);
         if (!(m > 0)) continue;
-        const double times = meets ? multiplicity(cell, axis, node) : 1;
-        visit(node, *record, times * m, times);
+        const Multiplicity times = meets ? multiplicity(cell, axis, node) : Multiplicity{};
+        visit(node, *record, times.all * m, times.withoutPlanes);
       }
     });
   }
   /// Mass [kg] and momentum of a body at the nodes of a face.
   struct Content {
     double mass = 0;
-    double timesMass = 0;  ///< the sum of the masses times their multiplicities
+    double timesMass = 0;  ///< the sum of the masses times their multiplicities without planes
     Vec<D> momentum = Vec<D>::Zero();
 
     Vec<D> velocity() const { return mass > 0 ? Vec<D>(momentum / mass) : momentum; }
-    /// The force on this body divided by the acceleration of its velocity [kg].
+    /// The force on this body divided by the acceleration of its velocity [kg]. Beyond symmetry planes, an equal force
+    /// acts, but at another face.
     double inertia() const { return mass > 0 ? mass * (mass / timesMass) : 0; }
   };
   Content sumAt(const Index<D>& cell, int axis, std::size_t body, int lane) const {
@@ -208,8 +233,10 @@ class BodiesAtNodes {
   }
   /// The fraction of a face that one of several bodies covers; 0 if it is alone.
   double coverageBy(std::size_t body, const Index<D>& cell, int axis) const {
-    const auto& coverage = (*records_)[body].coverage;
-    return coverage && coverage->box().contains(cell) ? std::min(1.0, (*coverage)[cell][axis]) : 0;
+    const BodyAtFaces<D>& of = (*records_)[body];
+    if (of.coverageAtEnd && cell[axis] == level_->cells().upper[axis] && is_mirror_[axis][1])
+      return std::min(1.0, (*of.coverageAtEnd)[cell - Index<D>::unit(axis)][axis]);
+    return of.coverage && of.coverage->box().contains(cell) ? std::min(1.0, (*of.coverage)[cell][axis]) : 0;
   }
   /// What one of several bodies fills of the cells on both sides of a face; 0 if it is alone.
   double volumeOf(std::size_t body, const Index<D>& cell, int axis) const {

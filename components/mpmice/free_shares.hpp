@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "components/mpmice/box_images.hpp"
 #include "components/mpmice/labels.hpp"
 #include "components/mpmice/near_bodies.hpp"
 #include "components/mpmice/particle_box.hpp"
@@ -16,10 +17,13 @@ template <int D>
 struct FreeShares {
   CellView<double> volume;
   CellView<Vec<D>> coverage;
+  std::optional<CellView<Vec<D>>> coverageAtEnd = {};  ///< that of upper faces on symmetry planes
 
-  /// `volume` is the label of the free volume.
-  static FreeShares from(auto& take, const CellLabel<double>* volume) {
-    return {.volume = take(computes(*volume)), .coverage = take(computes(c::coverage<D>))};
+  /// `volume` is the label of the free volume; for `endsAtPlane`, see Settings.
+  static FreeShares from(auto& take, const CellLabel<double>* volume, bool endsAtPlane) {
+    return {.volume = take(computes(*volume)),
+            .coverage = take(computes(c::coverage<D>)),
+            .coverageAtEnd = take(when(endsAtPlane, computes(c::coverageAtEnd<D>)))};
   }
 };
 
@@ -28,10 +32,11 @@ struct FreeShares {
 template <int D>
 class TakenShares {
  public:
-  /// Everything is free at first.
-  explicit TakenShares(const FreeShares<D>& free) : free_(free) {
+  /// Everything is free at first. `planes` are the symmetry planes of the level.
+  explicit TakenShares(const FreeShares<D>& free, const BoxImages<D>& planes = {}) : free_(free), planes_(planes) {
     free_.volume.fill(1);
     free_.coverage.fill(Vec<D>::Zero());
+    if (free_.coverageAtEnd) free_.coverageAtEnd->fill(Vec<D>::Zero());
   }
 
   /// Takes the contribution of a particle's box, whose coordinates are relative to the cell `origin`. Calls for boxes
@@ -42,6 +47,7 @@ class TakenShares {
     if (!(origin == origin_) || !fits(reach)) moveTo(origin, reach);
     addTo(reach, box);
   }
+  const BoxImages<D>& planes() const { return planes_; }
   /// Subtracts what was taken; where bodies overlap, the free volume is 0 instead of negative.
   void settle() {
     subtract();
@@ -138,9 +144,22 @@ class TakenShares {
         for (int a = 0; a < D; ++a) faces[i][a] += row.covered[a][at[0] + i];
       }
     });
+    if (free_.coverageAtEnd)
+      for (int a = 0; a < D; ++a) coverEnd(cells, lowest, a);
     rows_ = {};
     lower_ = Index<D>::filled(width);
     upper_ = Index<D>::filled(0);
+  }
+  /// Adds the sums of the window to the coverage of faces at the upper end of an axis, if a symmetry plane is there.
+  void coverEnd(const Box& cells, const Index<D>& lowest, int axis) {
+    Box beyond = free_.volume.box();
+    if (!planes_.endsAtPlane(beyond, axis)) return;
+    beyond.lower[axis] = beyond.upper[axis];
+    ++beyond.upper[axis];
+    forEach<D>(cells.intersect(beyond), [&](const Index<D>& above) {
+      const Index<D> at = above - lowest;
+      (*free_.coverageAtEnd)[above - Index<D>::unit(axis)][axis] += rows_[rowAt(at)].covered[axis][at[0]];
+    });
   }
   static std::size_t rowAt(const Index<D>& at) {
     if constexpr (D == 1)
@@ -152,6 +171,7 @@ class TakenShares {
   }
 
   FreeShares<D> free_;
+  BoxImages<D> planes_;
   Index<D> origin_ = Index<D>::filled(std::numeric_limits<int>::min());  ///< the cell of the boxes; at first, none
   Index<D> window_{};                                   ///< the lowest cell of the window, relative to that cell
   Index<D> lower_ = Index<D>::filled(width), upper_{};  ///< the cells of the window that are not 0

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "components/mpmice/box_images.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
 #include "components/mpmice/near_bodies.hpp"
 
@@ -55,7 +56,10 @@ template <int D>
 class FreeSpace {
  public:
   FreeSpace(const Level& level, const Settings& settings, const GasInCells<D>& cells)
-      : level_(&level), thin_walls_(settings.thinWalls), fills_vacuum_(settings.fillsVacuum()), cells_(cells) {}
+      : level_(&level), thin_walls_(settings.thinWalls), fills_vacuum_(settings.fillsVacuum()), cells_(cells) {
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) is_plane_[d][side] = isPlane(level, d, side);
+  }
 
   /// Measures the open fractions of faces near bodies all at once, for tasks that ask for them often.
   void measure(const NearBodies<D>& near);
@@ -82,7 +86,7 @@ class FreeSpace {
 
   /// Open fraction of a face.
   double aperture(const Index<D>& cell, int axis, int side) const {
-    if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : roomOf(cells_.free[cell]);
+    if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : openAtSide(cell, axis, side);
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
     if (measured_.contains(above)) return open_[axis][offsetIn<D>(measured_, above)];
     if (!mayPass(below, above)) return 0;
@@ -136,6 +140,14 @@ class FreeSpace {
   }
 
  private:
+  /// The open fraction of a face on a side of the grid, of a cell with gas. Beyond a symmetry plane, there is the
+  /// mirror image of the cell; other sides are as open as the cell.
+  double openAtSide(const Index<D>& cell, int axis, int side) const {
+    const double room = roomOf(cells_.free[cell]);
+    if (!is_plane_[axis][side] || (side == 1 && !cells_.coverageAtEnd)) return room;
+    const double covered = side == 0 ? cells_.coverage[cell][axis] : (*cells_.coverageAtEnd)[cell][axis];
+    return openShare(covered, room, room, thin_walls_);
+  }
   bool isWhole(const Index<D>& cell) const { return !(cells_.free[cell] < 1) && cells_.held.density[cell] > 0; }
 
   /// Whether gas may pass between two cells, if bodies leave an opening.
@@ -150,6 +162,7 @@ class FreeSpace {
 
   const Level* level_;
   bool thin_walls_, fills_vacuum_;
+  std::array<std::array<bool, 2>, D> is_plane_{};  ///< whether the sides are symmetry planes
   GasInCells<D> cells_;
   Box measured_;  ///< the cells whose lower faces are measured
   /// The open fractions of these faces along each axis.

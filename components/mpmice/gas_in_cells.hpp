@@ -68,11 +68,13 @@ struct GasInCells {
   euler::MixtureViews<D, const double> held;
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
+  std::optional<CellView<const Vec<D>>> coverageAtEnd = {};  ///< if an upper side of the grid is a symmetry plane
 
   /// How many ghost layers are needed for the state, for the presence of gas, and for the free volume.
   struct Reach {
     int state = 0, mass = 0, room = 0;
-    std::size_t gases = 0;  ///< number of gases if there are several, otherwise 0
+    std::size_t gases = 0;     ///< number of gases if there are several, otherwise 0
+    bool endsAtPlane = false;  ///< as in Settings
   };
   /// `reads` makes the accesses to the state, which is that at the start of a step, or the one computed in the step.
   static GasInCells from(auto& take, auto reads, const Reach& ghost) {
@@ -84,7 +86,8 @@ struct GasInCells {
                      ofEach(c::massOfGas),
                      ofEach(c::shareOfGas)},
             .free = take(reads(c::freeVolume, ghost.room)),
-            .coverage = take(reads(c::coverage<D>, ghost.room))};
+            .coverage = take(reads(c::coverage<D>, ghost.room)),
+            .coverageAtEnd = take(when(ghost.endsAtPlane, reads(c::coverageAtEnd<D>, ghost.room)))};
   }
   bool isEmpty(const Index<D>& cell) const { return free[cell] < leastFreeVolume || !(held.density[cell] > 0); }
   /// Whether a cell contains a body or contains no gas.

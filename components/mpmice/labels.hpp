@@ -21,11 +21,18 @@ inline constexpr CellLabel<double> unfilledVolume{"c.unfilledVolume", "1",
                                                   "fraction of the cell that bodies do not fill, including holes"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the lower faces that bodies cover"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> coverageAtEnd{
+    "c.coverageAtEnd", "1", "fraction of the upper faces that bodies cover, on symmetry planes; 0 on other faces"};
 /// Labels of each body if there are several.
 inline constexpr CellLabel<double> freeOfBody{"c.freeOfBody", "1", "fraction of the cell that the body does not fill"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> coverageOfBody{"c.coverageOfBody", "1",
                                                   "fraction of the lower faces that the body covers"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> coverageOfBodyAtEnd{
+    "c.coverageOfBodyAtEnd", "1",
+    "fraction of the upper faces that the body covers, on symmetry planes; 0 on other faces"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
     "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};

@@ -70,7 +70,7 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
                     requiresNew(p::deformationMeasure), when(false, requiresNew(p::unburned)),
                     computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew),
-                        withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
+                        withoutMaterial(all<FreeShares<D>>(&c::freeVolume, settings_.endsAtPlane)));
   if (settings_.gases.empty())
     tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume, 1),
                    computes(c::density), computes(c::momentum<D>), computes(c::totalEnergy));
@@ -105,26 +105,28 @@ template <int D>
 void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials,
                                   const ParticleLabel<double>& state) const {
   if (materials.size() > 1)
-    tasks.perMaterial("mpmice::measureBody", measureBody<D>, materials, all<Boxes<D>>(readsOld), all<FreeOfBody<D>>());
+    tasks.perMaterial("mpmice::measureBody", measureBody<D>, materials, all<Boxes<D>>(readsOld),
+                      all<FreeOfBody<D>>(settings_.endsAtPlane));
   if (burns()) scheduleBurning(tasks, materials, state);
   if (settings_.implicit)
     schedulePressure(tasks, materials);
   else
     tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
                           withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
-                          all<BodyAtFaces<D>>(1, materials.size() > 1), withoutMaterial(all<Blowing<D>>(burns())),
-                          withoutMaterial(all<WallPressures<D>>()));
+                          all<BodyAtFaces<D>>(1, materials.size() > 1, settings_.endsAtPlane),
+                          withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
     tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
-                          all<BodyAtFaces<D>>(1, materials.size() > 1), withoutMaterial(computes(c::wallFriction<D>)));
+                          all<BodyAtFaces<D>>(1, materials.size() > 1, settings_.endsAtPlane),
+                          withoutMaterial(computes(c::wallFriction<D>)));
   tasks.acrossMaterials(
       "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
       withoutMaterial(
           gasIn(readsOld, {.state = isViscous() && settings_.diffusion.varies() ? 2 : 0, .mass = 3, .room = 3})),
       withoutMaterial(all<KnownWalls<D>>(2, isViscous())),
-      all<BodyAtFaces<D>>(isViscous() ? 3 : 2, materials.size() > 1), computes(total::forceOnBodies),
-      computes(g::surroundingForce<D>));
+      all<BodyAtFaces<D>>(isViscous() ? 3 : 2, materials.size() > 1, settings_.endsAtPlane),
+      computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
 /// Adds the tasks for the pressure at the end of the step, including the pressure on walls.
@@ -134,12 +136,13 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
   const auto gas = gasIn(readsOld, reach);
   tasks.perPatch("mpmice::takeGasAlone", takeGasAlone<D>, with(settings_), gas, all<NewGasAlone<D>>());
   tasks.acrossMaterials("mpmice::findWallSpeeds", findWallSpeeds<D>, materials, with(settings_), withoutMaterial(gas),
-                        all<BodyAtFaces<D>>(1, materials.size() > 1), withoutMaterial(all<NewWallSpeeds<D>>()));
+                        all<BodyAtFaces<D>>(1, materials.size() > 1, settings_.endsAtPlane),
+                        withoutMaterial(all<NewWallSpeeds<D>>()));
   tasks.perRank("mpmice::solvePressure", solvePressureBeside<D>, togetherOnRanks(), with(settings_), startTime(),
                 requiresOld(delT), all<GasAtWalls<D>>(), gas, requiresOld(c::pressureAtEnd), all<ice::PressureViews>(),
                 totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
-                        withoutMaterial(gas), all<BodyAtFaces<D>>(1, materials.size() > 1),
+                        withoutMaterial(gas), all<BodyAtFaces<D>>(1, materials.size() > 1, settings_.endsAtPlane),
                         withoutMaterial(requiresNew(c::pressureAtEnd)), withoutMaterial(all<WallPressures<D>>()));
 }
 
@@ -154,7 +157,8 @@ void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) co
                     requiresNew(p::deformationMeasure), when(burns(), requiresNew(p::unburned)),
                     computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, withoutMaterial(all<GasNearby>()),
-                        all<MovedBoxes<D>>(), withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
+                        all<MovedBoxes<D>>(),
+                        withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume, settings_.endsAtPlane)),
                         withoutMaterial(all<SweptFaces<D>>()));
 }
 
@@ -165,14 +169,15 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (settings_.implicit)
     tasks.acrossMaterials(
         "mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_), startTime(), requiresOld(delT),
-        withoutMaterial(all<GasInStep<D>>()), withoutMaterial(all<BodiesInStep<D>>(isViscous())),
-        all<BodyAtFaces<D>>(2, materials.size() > 1),
+        withoutMaterial(all<GasInStep<D>>(settings_.endsAtPlane)), withoutMaterial(all<BodiesInStep<D>>(isViscous())),
+        all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
         withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
   else
     tasks.acrossMaterials(
         "mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials, with(settings_),
         startTime(), requiresOld(delT), withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
-        withoutMaterial(all<BodiesInStep<D>>(isViscous())), all<BodyAtFaces<D>>(2, materials.size() > 1),
+        withoutMaterial(all<BodiesInStep<D>>(isViscous())),
+        all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
         withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
   carryScalars(tasks);
   if (settings_.diffusion.acts())

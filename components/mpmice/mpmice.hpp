@@ -44,6 +44,7 @@ class GasAround : public mpm::solid::Surroundings {
   /// The gas in cells; `reads` selects the kind of access.
   auto gasIn(auto reads, typename GasInCells<D>::Reach reach) const {
     reach.gases = settings_.gases.size();
+    reach.endsAtPlane = settings_.endsAtPlane;
     return all<GasInCells<D>>(reads, reach);
   }
   bool hasHeat() const { return settings_.heat.act(); }

@@ -50,6 +50,7 @@ struct Settings {
   ice::HeatCoefficients heat;    ///< coefficients of heat exchange: first the bodies in their order, then the gases
   bool thinWalls = false;        ///< whether bodies thinner than a cell also block the gas
   bool areRigid = false;         ///< whether bodies keep their velocities, unaffected by the gas
+  bool endsAtPlane = false;      ///< whether an upper side of the grid is a symmetry plane
   GasDiffusion diffusion = {};
   std::optional<ice::IceSettings> implicit = {};    ///< settings of implicit steps, if sound does not limit the steps
   ice::Heating heating = {};                        ///< heating of the gases

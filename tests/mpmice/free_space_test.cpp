@@ -52,6 +52,30 @@ TYPED_TEST(FreeSpaceAlongAxes, HasTheSameAreaOnBothSidesOfACell) {
   });
 }
 
+TYPED_TEST(FreeSpaceAlongAxes, IsAsOpenOnASymmetryPlaneAsBetweenACellAndItsImage) {
+  constexpr int D = TypeParam::value;
+  const Cube<D> cube;
+  GasFields<D> fields = porous<D>(cube.level);
+  Field<Vec<D>> atEnd(cube.level.cells(), Vec<D>::Zero());
+  for (std::size_t k = 0; k < atEnd.values.size(); ++k) atEnd.values[k].setConstant(1.2 * wild(k + 0.7));
+  GasInCells<D> gas = fields.gas();
+  gas.coverageAtEnd = atEnd.seen();
+  const FreeSpace<D> space(cube.level, cube.settings, gas);
+  int closed = 0, open = 0;
+  forEach<D>(cube.level.cells(), [&](const Index<D>& cell) {
+    const double room = fields.free.seen()[cell];
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        if (!space.isAtSide(cell, d, side)) continue;
+        const double covered = (side == 0 ? fields.coverage : atEnd).seen()[cell][d];
+        const double expected = space.isEmpty(cell) ? 0 : openShare(covered, room, room, false);
+        EXPECT_EQ(space.aperture(cell, d, side), expected);
+        (expected > 0 ? open : closed) += 1;
+      }
+  });
+  EXPECT_GT(std::min(open, closed), 0);
+}
+
 TYPED_TEST(FreeSpaceAlongAxes, IsAsOpenFromOneSideOfAFaceAsFromTheOther) {
   constexpr int D = TypeParam::value;
   const Cube<D> cube;

@@ -51,6 +51,43 @@ double greatestHoleOf(const mpm::solid::Matrix3& f, int seed) {
 
 }  // namespace
 
+TYPED_TEST(BodiesAlongAxes, LeaveAsMuchFreeBetweenSymmetryPlanesAsWithTheirImagesBeyond) {
+  constexpr int D = TypeParam::value;
+  constexpr int size = 4;
+  const Level level(euler::closedBox(D, size));
+  Shares<D> whole(3 * size);
+  Field<double> volume(cube<D>(size), 1);
+  Field<Vec<D>> coverage(cube<D>(size), Vec<D>::Zero()), atEnd(coverage);
+  TakenShares<D> taken({volume.cells(), coverage.cells(), atEnd.cells()}, BoxImages<D>(level));
+  forEach<D>(cube<D>(size), [&](const Index<D>& cell) {
+    const ParticleBox<D> box = boxAt<D>(7 * level.cellNumber<D>(cell));
+    taken.take(cell, box);
+    EXPECT_TRUE(taken.planes().areNear(cell));
+    taken.planes().template forEachOf<1>(cell, {box},
+                                         [&](const Index<D>& at, const auto& images) { taken.take(at, images[0]); });
+    forEach<D>(cube<D>(3), [&](const Index<D>& tile) {  // the middle tile is the grid
+      Index<D> at;
+      ParticleBox<D> image = box;
+      for (int d = 0; d < D; ++d) {
+        at[d] = size * tile[d] + (tile[d] == 1 ? cell[d] : size - 1 - cell[d]);
+        if (tile[d] != 1) image.middle[d] = 1 - box.middle[d];
+      }
+      whole.taken.take(at, image);
+    });
+  });
+  taken.settle();
+  whole.taken.settle();
+  forEach<D>(cube<D>(size), [&](const Index<D>& cell) {
+    const Index<D> there = cell + Index<D>::filled(size);
+    EXPECT_NEAR(volume.seen()[cell], whole.volume.seen()[there], 1e-14);
+    for (int d = 0; d < D; ++d) {
+      const Index<D> above = there + Index<D>::unit(d);
+      EXPECT_NEAR(coverage.seen()[cell][d], whole.coverage.seen()[there][d], 1e-14);
+      EXPECT_NEAR(atEnd.seen()[cell][d], cell[d] == size - 1 ? whole.coverage.seen()[above][d] : 0, 1e-14);
+    }
+  });
+}
+
 TYPED_TEST(BodiesAlongAxes, LeaveNothingFreeWhereTheyTileTheCells) {
   constexpr int D = TypeParam::value;
   Shares<D> shares(5);

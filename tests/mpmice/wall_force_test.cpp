@@ -137,6 +137,29 @@ TYPED_TEST(WallForceAlongAxes, BelongsToTheBodiesThatCoverTheFace) {
   EXPECT_NEAR(bodies.massAt(face, 0) * perMass, 1, 1e-13) << "acceleration of velocityAt";
 }
 
+TYPED_TEST(WallForceAlongAxes, AtASymmetryPlaneSeesABodyThatDoesNotMoveThroughIt) {
+  constexpr int D = TypeParam::value;
+  Walled<D> walled;
+  for (auto& records : walled.records)
+    for (NodeRecord& one : records.values) {
+      one[lane::mass] = 1;
+      mpm::solid::setLanes<D>(one, lane::velocity, Vec<D>::Constant(0.7));
+    }
+  const auto views = walled.seen();
+  const BodiesAtNodes<D> bodies(walled.level(), views);
+  const int last = walled.level().cells().upper[0];
+  for (const int plane : {0, last}) {
+    Index<D> face = Index<D>::filled(2);
+    face[0] = plane;
+    Vec<D> along = Vec<D>::Constant(0.7);
+    along[0] = 0;
+    EXPECT_NEAR((bodies.velocityAt(face, 0, lane::velocity) - along).norm(), 0, 1e-15);
+    EXPECT_EQ(bodies.speedsAt(face, 0).after, 0);
+    // Two layers of nodes here, and as many beyond; the plane itself has the other half of its mass there.
+    EXPECT_DOUBLE_EQ(bodies.massAt(face, 0), static_cast<double>(4 * views.size()) * std::pow(2, D - 1));
+  }
+}
+
 TYPED_TEST(WallForceAlongAxes, IsNoneInAUniformGasThatMovesWithTheBody) {
   constexpr int D = TypeParam::value;
   Walled<D> walled;

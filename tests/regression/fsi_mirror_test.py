@@ -60,26 +60,104 @@ class Mirror(SceneTest):
 
 class Quarter(SceneTest):
     def test_between_symmetry_planes_is_that_of_the_whole(self):
-        """The gas compresses a block, two cells wide, from all sides. Linear functions do not reach beyond planes. One
-        step: later, cells at a plane open that hold a part of the block."""
+        """The gas compresses a block, two cells wide, from all sides. Linear functions do not reach beyond planes.
+        After the first step, cells at a plane open that hold a part of the block."""
         whole = changed(fsi.scene("rest").read_text(), ("<outputInitTimestep/>", '<save label="p.velocity"/>'),
-                        ("<lower>[0,0,0]<", "<lower>[-0.5,-0.5,0]<"), ("<upper>[1,1,0.02]<", "<upper>[0.5,0.5,0.05]<"),
-                        ("[50,50,1]", "[20,20,1]"), ("<cylinder", "<box"), ("</cylinder>", "</box>"),
-                        ("<bottom>[0.5,0.5,-1]</bottom>", "<min>[-0.05,-0.05,-1]</min>"),
-                        ("<top>[0.5,0.5,1]</top>", "<max>[0.05,0.05,1]</max>"), ("<radius>0.2</radius>", ""),
+                        ("<lower>[0,0,0]<", "<lower>[-0.5,-0.5,0]<"), ("[50,50,1]", "[16,16,1]"),
+                        ("<upper>[1,1,0.02]<", "<upper>[0.5,0.5,0.0625]<"),
+                        ("<cylinder", "<box"), ("</cylinder>", "</box>"),
+                        ("<bottom>[0.5,0.5,-1]</bottom>", "<min>[-0.0625,-0.0625,-1]</min>"),
+                        ("<top>[0.5,0.5,1]</top>", "<max>[0.0625,0.0625,1]</max>"), ("<radius>0.2</radius>", ""),
                         ("<density>1000<", "<density>3<"), ("0.0</bulk_modulus>", "</bulk_modulus>"),
                         ("0.0</shear_modulus>", "</shear_modulus>"), ("<min>[0,0,0]</min>", "<min>[-1,-1,0]</min>"),
                         ("<temperature>1<", "<temperature>2<"), (">gimp<", ">linear<"))
-        quarter = changed(whole, ("<lower>[-0.5,-0.5,0]<", "<lower>[0,0,0]<"), ("[20,20,1]", "[10,10,1]"))
-        one_step = ("Time/max_Timesteps=1",)
-        found = [last_state(self.scene(text), "p.velocity", sets=one_step) for text in (whole, quarter)]
-        there = [{(int(80 * x), int(80 * y)): v for x, y, v in zip(*list(one.values())[:2], one["p.velocity.x [m/s]"])
+        quarter = changed(whole, ("<lower>[-0.5,-0.5,0]<", "<lower>[0,0,0]<"), ("[16,16,1]", "[8,8,1]"))
+        steps = ("Time/max_Timesteps=20",)
+        found = [last_state(self.scene(text), "p.velocity", sets=steps) for text in (whole, quarter)]
+        there = [{(int(64 * x), int(64 * y)): v for x, y, v in zip(*list(one.values())[:2], one["p.velocity.x [m/s]"])
                   if min(x, y) > 0} for one in found]
         self.assertEqual(len(there[0]), 16)
         self.assertEqual(sorted(there[0]), sorted(there[1]))
         most = max(map(abs, there[0].values()))
         self.assertGreater(most, 1e-4)
         self.assertLess(max(abs(v - there[1][place]) for place, v in there[0].items()), 1e-12 * most)
+
+
+class Half(SceneTest):
+    """A disc or a ball in hot gas, carried along the planes that cut it: half of it, in front of one plane, is half of
+    the whole. The whole itself is symmetric only to round-off, which cells that the body nearly fills enlarge."""
+    MOST = 1e-7  # before 29 November 2026: 2e-6 to 1e-5 in a plane, .02 in three dimensions
+    CELLS = 16
+
+    def part(self, axis, side, dimension, changes):
+        """Returns the scene with a plane through the middle, normal to `axis`, at the lower (0) or upper (1) side; the
+        whole without a side."""
+        lower, upper, cells = [-.5] * 3, [.5] * 3, [self.CELLS] * 3
+        if dimension == 2:
+            lower[2], upper[2], cells[2] = 0, 1 / self.CELLS, 1
+        if side is not None:
+            (lower, upper)[side][axis] = 0
+            cells[axis] //= 2
+        along = 1 if axis == 0 else 0
+        wind, hot = [0, 0, 0], [1, 1, 1]
+        wind[along], hot[along] = .5, -.25
+        text = changed(fsi.scene("rest").read_text(), ("<outputInitTimestep/>", '<save label="p.velocity"/>'),
+                       ("<lower>[0,0,0]<", f"<lower>{lower}<"), ("<upper>[1,1,0.02]<", f"<upper>{upper}<"),
+                       ("[50,50,1]", str(cells)), ("[0.5,0.5,-1]", "[0,0,-1]"), ("[0.5,0.5,1]", "[0,0,1]"),
+                       ("<density>1000<", "<density>10<"), ("<bulk_modulus>10000.0<", "<bulk_modulus>100<"),
+                       ("<shear_modulus>1000.0<", "<shear_modulus>50<"), (">gimp<", ">linear<"),
+                       ("<min>[0,0,0]</min>", "<min>[-1,-1,-1]</min>"),
+                       ("<res>[4,4,1]</res>", f"<res>[2,2,{dimension - 1}]</res><velocity>{wind}</velocity>"),
+                       ("</geom_object>\n      </material>\n    </ICE>", "</geom_object><geom_object>"
+                        f"<box><min>[-1,-1,-1]</min><max>{hot}</max></box><density>1.5</density>"
+                        "<temperature>1.5</temperature></geom_object></material></ICE>"), *changes)
+        if dimension == 2:
+            return text
+        return changed(text, ("<cylinder", "<sphere"), ("</cylinder>", "</sphere>"),
+                       ("<bottom>[0,0,-1]</bottom><top>[0,0,1]</top>", "<origin>[0,0,0]</origin>"))
+
+    def assert_half_is_half_of_the_whole(self, axis, dimension=2, steps=10, changes=()):
+        states = []
+        for side in (None, 0, 1):
+            scene = self.scene(self.part(axis, side, dimension, changes))
+            archive = archive_of(scene, scene.parent, f"Time/max_Timesteps={steps}")
+            states.append([columns(archive, "c.pressure", "c.velocity", "c.freeVolume"),
+                           columns(archive, "p.velocity")])
+        for half in states[1:]:
+            for whole, part in zip(states[0], half):
+                places = [name for name in ("x [m]", "y [m]", "z [m]") if name in part]
+                whole, found = ({tuple(round(4 * self.CELLS * x) for x in place): values for place, values in
+                                 zip(zip(*(of[name] for name in places)),
+                                     zip(*(of[name] for name in of if name not in places)))} for of in (whole, part))
+                self.assertEqual(2 * len(found), len(whole))
+                error = max(abs(a - b) for place, values in found.items() for a, b in zip(values, whole[place]))
+                self.assertLess(error, self.MOST, (axis, dimension))
+
+    def test_of_a_disc_is_half_of_the_whole(self):
+        for axis in (0, 1):
+            self.assert_half_is_half_of_the_whole(axis)
+
+    def test_of_a_ball_is_half_of_the_whole(self):
+        for axis in (0, 1, 2):
+            self.assert_half_is_half_of_the_whole(axis, 3, 5)
+
+    def test_of_a_disc_in_viscous_gas_is_half_of_the_whole(self):
+        self.assert_half_is_half_of_the_whole(1, changes=[("<dynamic_viscosity>0<", "<dynamic_viscosity>0.01<"),
+                                                          ("<thermal_conductivity>0<", "<thermal_conductivity>0.03<")])
+
+    def test_of_a_disc_with_implicit_steps_is_half_of_the_whole(self):
+        solver = "<ImplicitSolver><Solver><tolerance>1e-13</tolerance></Solver></ImplicitSolver>"
+        self.assert_half_is_half_of_the_whole(0, changes=[("<ICE>\n      <advection", f"<ICE>{solver}<advection")])
+
+    def test_of_two_bodies_is_half_of_the_whole(self):
+        """The second body is a block in the way of the disc."""
+        block = """<material name="block"><density>12</density><constitutive_model type="comp_neo_hook">
+          <bulk_modulus>100</bulk_modulus><shear_modulus>50</shear_modulus></constitutive_model><geom_object>
+          <box><min>[-.1,.22,-1]</min><max>[.1,.34,1]</max></box><res>[2,2,1]</res></geom_object></material>"""
+        contact = "<contact><type>friction</type><materials>[0,1]</materials><mu>0</mu></contact>"
+        self.assert_half_is_half_of_the_whole(0, steps=5, changes=[
+            ("</material>\n    </MPM>", f"</material>{block}{contact}</MPM>"),
+            ("<momentum>[1e15]<", "<momentum>[0,1e15,1e15]<"), ("<heat>[0]<", "<heat>[0,0,0]<")])
 
 
 class Hole(FolderTest):

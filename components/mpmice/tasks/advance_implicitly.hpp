@@ -15,10 +15,11 @@ struct GasInStep {
   GasAlone<D> alone;
   CellView<const double> change;
 
-  static GasInStep from(auto& take) {
-    return {.cells = GasInCells<D>::from(take, readsOld, {.state = 2, .mass = 3, .room = 3}),
-            .alone = GasAlone<D>::from(take, 2),
-            .change = take(requiresNew(c::pressureChange, 2))};
+  static GasInStep from(auto& take, bool endsAtPlane) {
+    return {
+        .cells = GasInCells<D>::from(take, readsOld, {.state = 2, .mass = 3, .room = 3, .endsAtPlane = endsAtPlane}),
+        .alone = GasAlone<D>::from(take, 2),
+        .change = take(requiresNew(c::pressureChange, 2))};
   }
 };
 

@@ -37,6 +37,10 @@ struct Boxes {
   ParticleBox<D> of(const mpm::CellFrame<D>& frame, int p) const { return {frame.coordinates(x[p]), edges[p]}; }
 };
 
+/// The box of a particle before a step, the same box where it is after the step, and the box after the step.
+template <int D>
+using Move = std::array<ParticleBox<D>, 3>;
+
 /// Views of the boxes of particles before and after a step.
 template <int D>
 struct MovedBoxes {
@@ -46,6 +50,7 @@ struct MovedBoxes {
     Boxes<D> before = Boxes<D>::from(take, readsOld);
     return {.before = std::move(before), .after = Boxes<D>::from(take, readsNew)};
   }
+  Move<D> of(const mpm::CellFrame<D>& frame, int p) const;
 };
 
 /// The cells of a view in a box of cells around the cell `origin`; `reach` is relative to this cell.
@@ -63,11 +68,16 @@ void forEachCell(const Level& level, const ParticleView<const Vec<D>>& x, Visit&
     visit(cell, mpm::CellFrame<D>(level, cell), range);
   });
 }
-/// Calls `visit(cell, frame, particle)` for the particles around a patch, ordered by cell and id.
-template <int D, class Visit>
-void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Visit&& visit) {
-  forEachCell<D>(level, x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, const data::ParticleRange& range) {
-    for (const int p : range) visit(cell, frame, p);
+
+/// Takes the boxes of a body, and their mirror images, from the free shares of a patch.
+template <int D>
+void takeBoxes(const Level& level, const Boxes<D>& boxes, TakenShares<D>& taken) {
+  forEachCell<D>(level, boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, const auto& range) {
+    for (const int p : range) taken.take(cell, boxes.of(frame, p));
+    if (!taken.planes().areNear(cell)) return;
+    for (const int p : range)
+      taken.planes().template forEachOf<1>(cell, {boxes.of(frame, p)},
+                                           [&](const Index<D>& at, const auto& images) { taken.take(at, images[0]); });
   });
 }
 
@@ -75,11 +85,8 @@ void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Vi
 template <int D>
 void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material>&,
                       const std::vector<Boxes<D>>& materials, const FreeShares<D>& free) {
-  TakenShares<D> taken(free);
-  for (const Boxes<D>& boxes : materials)
-    forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
-      taken.take(cell, boxes.of(frame, p));
-    });
+  TakenShares<D> taken(free, BoxImages<D>(patch.level()));
+  for (const Boxes<D>& boxes : materials) takeBoxes<D>(patch.level(), boxes, taken);
   taken.settle();
   fillOutside<D>(patch.level(), free, leastFreeVolume);
 }
@@ -87,17 +94,18 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
 /// Views of what one of several bodies leaves free.
 template <int D>
 struct FreeOfBody : FreeShares<D> {
-  static FreeOfBody from(auto& take) { return {{take(computes(c::freeOfBody)), take(computes(c::coverageOfBody<D>))}}; }
+  static FreeOfBody from(auto& take, bool endsAtPlane) {
+    return {{take(computes(c::freeOfBody)), take(computes(c::coverageOfBody<D>)),
+             take(when(endsAtPlane, computes(c::coverageOfBodyAtEnd<D>)))}};
+  }
 };
 
 /// Computes the fraction of cells that one of several bodies leaves free, and what it covers of faces, at the start of
 /// a step.
 template <int D>
 void measureBody(const Patch& patch, const mpm::solid::Material&, const Boxes<D>& boxes, const FreeOfBody<D>& free) {
-  TakenShares<D> taken(free);
-  forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
-    taken.take(cell, boxes.of(frame, p));
-  });
+  TakenShares<D> taken(free, BoxImages<D>(patch.level()));
+  takeBoxes<D>(patch.level(), boxes, taken);
   taken.settle();
 }
 
@@ -210,6 +218,14 @@ Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {
   return coordinates.cwiseMax(least).cwiseMin(most);
 }
 
+template <int D>
+Move<D> MovedBoxes<D>::of(const mpm::CellFrame<D>& frame, int p) const {
+  const ParticleBox<D> old = before.of(frame, p);
+  ParticleBox<D> fresh = after.of(frame, p);
+  fresh.middle = withinReach<D>(fresh.middle, old.edges.cwiseMax(fresh.edges));
+  return {old, ParticleBox<D>{fresh.middle, old.edges}, fresh};
+}
+
 /// Number of layers of cells around gas in which it may follow walls through faces in a step.
 inline constexpr int sweptReach = 3;
 
@@ -253,21 +269,24 @@ template <int D>
 void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&, const GasNearby& gas,
                    const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, const SweptFaces<D>& swept) {
   const Level& level = patch.level();
-  TakenShares<D> taken(free);
+  TakenShares<D> taken(free, BoxImages<D>(level));
   Sweeps<D> sweeps(swept);
   const CellMarks<D> needed = gas.mark<D>(patch), around = markAround<D>(patch, needed);
   for (const MovedBoxes<D>& boxes : materials)
     forEachCell<D>(level, boxes.before.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, const auto& range) {
       const bool isNearGas = around(cell);
-      for (const int p : range) {
-        if (boxes.after.x[p][0] == data::removed) continue;  // its space becomes free, as that of a burnt particle
-        const ParticleBox<D> before = boxes.before.of(frame, p);
-        ParticleBox<D> after = boxes.after.of(frame, p);
-        after.middle = withinReach<D>(after.middle, before.edges.cwiseMax(after.edges));
-        const ParticleBox<D> moved{after.middle, before.edges};
-        if (isNearGas || !isClose(before) || !isClose(moved)) sweeps.add(cell, before, moved);
-        taken.take(cell, after);
-      }
+      const auto move = [&](const Index<D>& from, const auto& of) {
+        const auto& [before, moved, after] = of;
+        if (isNearGas || !isClose(before) || !isClose(moved)) sweeps.add(from, before, moved);
+        taken.take(from, after);
+      };
+      // A particle that is removed leaves its space free, like a burnt one.
+      const auto remains = [&](int p) { return boxes.after.x[p][0] != data::removed; };
+      for (const int p : range)
+        if (remains(p)) move(cell, boxes.of(frame, p));
+      if (!taken.planes().areNear(cell)) return;
+      for (const int p : range)
+        if (remains(p)) taken.planes().template forEachOf<3>(cell, boxes.of(frame, p), move);
     });
   taken.settle();
   fillOutside<D>(level, free, narrowFreeVolume);

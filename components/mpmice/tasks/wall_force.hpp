@@ -217,9 +217,11 @@ void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, 
     if (walls.friction) force = frictionAt<D>(level, settings, space, walls, cells, bodies, cell, axis);
     force[axis] += forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
     if (force.isZero(0) || !(bodies.massAt(cell, axis) > 0)) return;
+    Vec<D> moving = force;
+    if (bodies.isOnPlane(cell, axis)) moving[axis] = 0;  // the plane bears it
     if (!settings.areRigid)
       bodies.distribute(cell, axis, [&](std::size_t body, const Index<D>& node, double share) {
-        if (forces[body].box().contains(node)) forces[body][node] += force * share;
+        if (forces[body].box().contains(node)) forces[body][node] += moving * share;
       });
     if (ownsFace<D>(patch, cell, axis)) total.add(level.expandDirection<D>(force));
   };
