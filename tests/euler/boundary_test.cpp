@@ -173,4 +173,33 @@ TEST(GasSides, GiveSeveralGasesThePressureWhateverTheFirstOneIs) {
   EXPECT_EQ(rule.value, (State<1>{0, 0, 7}));
 }
 
+TEST(GasSides, MeetInCornersThatDoNotDependOnTheOrderOfAxes) {
+  const auto wind = [](const Vec3& v) {
+    return grid::BoundaryCondition{boundary::velocity, BoundaryKind::dirichlet, v, -1};
+  };
+  grid::Domain domain = openBox(2, 4), turned = domain;  // turned: x and y are exchanged
+  domain.boundaries.face(0, 0) = {given(boundary::density, 9), wind({4, 1, 0})};
+  domain.boundaries.face(1, 0) = {given(boundary::density, 5), wind({2, -3, 0})};
+  turned.boundaries.face(1, 0) = {given(boundary::density, 9), wind({1, 4, 0})};
+  turned.boundaries.face(0, 0) = {given(boundary::density, 5), wind({-3, 2, 0})};
+  domain.boundaries.face(0, 1) = turned.boundaries.face(1, 1) = {{grid::symmetric, BoundaryKind::symmetry}};
+  Square square(domain), other(turned);
+  for (const int i : {-1, -2})
+    for (const int j : {-1, -2}) {
+      EXPECT_EQ(square.at(i, j), (State<2>{7, 3, -1, 2})) << "the mean";
+      EXPECT_EQ(other.at(j, i), (State<2>{7, -1, 3, 2}));
+      // A wall and an inflow: the order does not matter.
+      EXPECT_EQ(square.at(3 - i, j)[kDensity], 5);
+      EXPECT_EQ(square.at(3 - i, j)[kVelocity(0)], other.at(j, 3 - i)[kVelocity(1)]);
+    }
+}
+
+TEST(GasSides, MeetInCornersAsBeforeIfTheirRulesCommute) {
+  Square square(closedBox(2, 4));
+  EXPECT_EQ(square.at(-1, -2), (State<2>{1 + 4, -0.3, -0.2, 2}));
+  grid::Domain domain = openBox(2, 4);
+  for (const int axis : {0, 1}) domain.boundaries.face(axis, 0) = {given(boundary::density, 9)};
+  EXPECT_EQ(Square(domain).at(-2, -1), (State<2>{9, 0.3, 0.2, 2}));
+}
+
 }  // namespace tushar::euler
