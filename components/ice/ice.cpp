@@ -35,11 +35,10 @@ void Ice<D>::scheduleDiffusion(TaskList& tasks) const {
 }
 
 template <int D>
-void Ice<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
+void Ice<D>::scheduleStepsOfDiffusion(TaskList& tasks) const {
   if (!varying_.varies()) return;
   tasks.perPatch("euler::limitDiffusion", euler::limitVaryingDiffusion<D>, with(this->settings().gas), with(varying_),
-                 with(this->settings().courant.number), with(soundSpeedKnob), all<euler::OldState<D>>(1), startTime(),
-                 computes(delT));
+                 with(this->settings().courant.number), all<euler::OldState<D>>(1), startTime(), computes(delT));
 }
 
 template <int D>
@@ -83,7 +82,7 @@ template <int D>
 void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   euler::Euler<D>::scheduleComputeStableTimeStep(tasks);
   scheduleStepsOfScalars(tasks);
-  scheduleStepsOfDiffusion(tasks, 1);
+  scheduleStepsOfDiffusion(tasks);
   if (acting_.diffusion.acts())
     tasks.perPatch("euler::limitDiffusion", euler::limitDiffusion<D>, with(this->settings().gas),
                    with(acting_.diffusion), with(this->settings().courant.number), requiresOld(euler::c::density),
@@ -149,10 +148,14 @@ void ImplicitIce<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void ImplicitIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(this->settings()), with(this->acting()),
-                 all<euler::OldState<D>>(2), startTime(), requiresOld(c::pressureAtEnd, 2), computes(delT));
+  if (this->varying().varies())
+    tasks.perPatch("ice::limitImplicitStep", limitVaryingImplicitStep<D>, with(this->settings()), with(this->acting()),
+                   with(this->varying()), all<euler::OldState<D>>(2), startTime(), requiresOld(c::pressureAtEnd, 2),
+                   computes(delT));
+  else
+    tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(this->settings()), with(this->acting()),
+                   all<euler::OldState<D>>(2), startTime(), requiresOld(c::pressureAtEnd, 2), computes(delT));
   this->scheduleStepsOfScalars(tasks);
-  this->scheduleStepsOfDiffusion(tasks, this->acting().soundSpeedKnob);
 }
 
 template <int D>

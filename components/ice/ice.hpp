@@ -43,6 +43,7 @@ class Ice : public euler::Euler<D> {
 
  protected:
   const IceSettings& acting() const { return acting_; }
+  const euler::VaryingDiffusion& varying() const { return varying_; }
   bool keepsFaceMasses() const override { return !scalars_.empty(); }
   /// Adds the tasks that advect scalars after the step of the gas.
   void scheduleScalars(TaskList& tasks) const;
@@ -52,9 +53,8 @@ class Ice : public euler::Euler<D> {
   void scheduleStepsOfScalars(TaskList& tasks) const;
   /// Adds viscosity, conduction and a driving force, after the step of the gas.
   void scheduleDiffusion(TaskList& tasks) const;
-  /// Adds the task that limits the time step by a varying viscosity, together with the given fraction of the speed of
-  /// sound.
-  void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
+  /// Adds the task that limits explicit steps by a varying viscosity, together with the speed of sound.
+  void scheduleStepsOfDiffusion(TaskList& tasks) const;
 
  private:
   CarriedScalars scalars_;

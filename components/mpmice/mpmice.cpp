@@ -285,12 +285,14 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   if (settings_.implicit) {
     const auto gas = gasIn(readsOld, {.state = 1, .mass = 2, .room = 2});
     const char* name = "mpmice::limitImplicitStep";
-    if (settings_.implicit->diffusion.acts())
+    if (settings_.diffusion.varies())
+      tasks.perPatch(name, limitVaryingImplicitStep<D>, with(settings_), gas, startTime(),
+                     requiresOld(total::diffusivityAtStart), computes(delT));
+    else if (settings_.implicit->diffusion.acts())
       tasks.perPatch(name, limitImplicitStep<D>, with(settings_), gas, requiresOld(total::diffusivityAtStart),
                      computes(delT));
     else
       tasks.perPatch(name, limitImplicitStep<D>, with(settings_), gas, with(0.0), computes(delT));
-    scheduleStepsOfDiffusion(tasks, settings_.implicit->soundSpeedKnob);
     return;
   }
   tasks.perPatch("mpmice::computeStableTimeStep",
@@ -302,16 +304,9 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   if (settings_.diffusion.acts() && !settings_.diffusion.varies())
     tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_), gasIn(readsOld, {}),
                    requiresOld(total::diffusivityAtStart), computes(delT));
-  scheduleStepsOfDiffusion(tasks, 1);
-}
-
-/// Adds the task that limits the time step by a varying viscosity, together with the given fraction of the speed of
-/// sound.
-template <int D>
-void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (settings_.diffusion.acts() && settings_.diffusion.varies())
     tasks.perPatch("mpmice::limitDiffusion", limitVaryingDiffusion<D>, with(settings_),
-                   gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), with(soundSpeedKnob), startTime(),
+                   gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), startTime(),
                    requiresOld(total::diffusivityAtStart), computes(delT));
 }
 

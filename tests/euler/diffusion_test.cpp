@@ -53,7 +53,7 @@ class StillBox : public GasBox<D> {
   double stableDiffusion(const VaryingDiffusion& varying, double cfl) {
     Minimum dt;
     for (const Patch& patch : grid.patches())
-      limitVaryingDiffusion<D>(patch, this->gas, varying, cfl, 1,
+      limitVaryingDiffusion<D>(patch, this->gas, varying, cfl,
                                {{view<const double>(density, patch, 1), view<const Vec<D>>(momentum, patch, 1),
                                  view<const double>(energy, patch, 1)}},
                                0, dt);

@@ -49,6 +49,20 @@ class Line {
     limitImplicitStep<1>(patch(), method_, settings_, before(), 0, seen<const double>(pressure_, 1), dt);
     return dt.value;
   }
+  /// The stable step with a viscosity [Pa s], uniform or as that of a box which holds the whole grid.
+  double stableStepWith(double viscosity, bool inBox) {
+    Minimum dt;
+    const auto pressure = seen<const double>(pressure_, 1);
+    settings_.diffusion.viscosity = viscosity;
+    if (inBox) {
+      settings_.diffusion = {};
+      const euler::VaryingDiffusion how{.sponges = {{Vec3::Constant(-1), Vec3::Constant(2), viscosity}}};
+      limitVaryingImplicitStep<1>(patch(), method_, settings_, how, before(), 0, pressure, dt);
+    } else {
+      limitImplicitStep<1>(patch(), method_, settings_, before(), 0, pressure, dt);
+    }
+    return dt.value;
+  }
   /// The momentum after a step in which no pressure changes [kg/(m² s)].
   std::vector<double> momentumAfter(double dt) {
     std::vector<double> density(4), energy(4), change(4), pushed;
@@ -99,6 +113,16 @@ TEST(ImplicitSides, LimitStepsByWhatFlowsThroughThem) {
   const double width = 0.25, cfl = 0.5;
   EXPECT_DOUBLE_EQ(Line({given(label::velocity, 8), given(label::density, 1)}, {}).stableStep(), cfl * width / 8);
   EXPECT_DOUBLE_EQ(Line({}, {given(label::velocity, 4)}).stableStep(), cfl * width / 4);
+}
+
+TEST(ImplicitSides, LimitStepsByVaryingViscosityAsByTheSameUniformOne) {
+  Line pushed({given(label::velocity, 0)}, {given(label::velocity, 0)}, 5);
+  const double without = pushed.stableStepWith(0, false);
+  for (const double viscosity : {0.01, 0.3, 5.0}) {
+    const double uniform = pushed.stableStepWith(viscosity, false);
+    EXPECT_LT(uniform, without);
+    EXPECT_NEAR(pushed.stableStepWith(viscosity, true), uniform, 1e-14 * uniform);
+  }
 }
 
 TEST(ImplicitSides, KeepLayersAtRestWithAVelocityAndAPressure) {

@@ -32,16 +32,14 @@ void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffus
   diffuse<D>(patch, diffuser, dt, diffusingCells<D>(patch.level(), gas, how, old), newMomentum, newTotalEnergy, rims);
 }
 
-/// Computes dt as cfl divided by the largest rate at which flow and diffusion together cross a cell. `soundSpeedKnob`
-/// is the fraction of the speed of sound that is included.
+/// Computes dt as cfl divided by the largest rate at which flow, sound and diffusion together cross a cell.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, double cfl,
-                           double soundSpeedKnob, const OldState<D>& old, double time, Minimum& dt) {
+                           const OldState<D>& old, double time, Minimum& dt) {
   refuseBroken<D, const double>(patch, gas, old, nullptr);
   const GhostRules<D> rules = diffusionRules<D>(patch.level(), gas, time);
   Diffuser<D> diffuser(patch.level(), patch.cells(), rules, how.smagorinsky);
-  const double greatest =
-      greatestDiffusionRate<D>(patch, diffuser, soundSpeedKnob, diffusingCells<D>(patch.level(), gas, how, old));
+  const double greatest = greatestDiffusionRate<D>(patch, diffuser, 1, diffusingCells<D>(patch.level(), gas, how, old));
   if (greatest > 0) dt.add(cfl / greatest, "diffusion");
 }
 

@@ -107,13 +107,7 @@ class Diffuser {
   /// Viscosity and conductivity at a face, with eddies; `strain()` returns sqrt(2 S : S) at the face [1/s].
   template <class Strain>
   Diffusion atFace(const Index<D>& face, int axis, Strain&& strain) const {
-    const Index<D> below = face - Index<D>::unit(axis);
-    const auto mean = [&](std::size_t k) {
-      return 0.5 * (coefficients_.number(below, k) + coefficients_.number(face, k));
-    };
-    Diffusion here{mean(viscosity), mean(conductivity)};
-    if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain();
-    return most_ ? here.least(mostAt(below)).least(mostAt(face)) : here;
+    return between(face - Index<D>::unit(axis), face, strain);
   }
   /// The rates at which a cell is crossed: sum_d (|v_d| + k c) / h_d by the flow, and sum_d (nu_below + nu_above) /
   /// h_d² by diffusion. Here nu is the largest diffusivity at a face, and k = `soundSpeedKnob` the fraction of the
@@ -123,18 +117,36 @@ class Diffuser {
     for (int d = 0; d < D; ++d) {
       const double perWidth = level_.inverseSpacing(d);
       rate.byFlow += (std::abs(here.w[kVelocity(d)]) + soundSpeedKnob * here.soundSpeed) * perWidth;
-      for (const Index<D>& face : {cell, cell + Index<D>::unit(d)}) {
-        const double diffusivity = atFace(face, d).greatest(here.specificHeat, here.density);
-        rate.byDiffusion += diffusivity * perWidth * perWidth;
-      }
+      rate.byDiffusion += diffusionAlong(cell, here, d);
     }
     return rate;
+  }
+  /// The rate (nu_below + nu_above) / h_d² at which diffusion crosses a cell along an axis [1/s]. At a face to a cell
+  /// without gas, nu is that of the cell itself.
+  double diffusionAlong(const Index<D>& cell, const DiffusingCell<D>& here, int axis) const {
+    const auto at = [&](const Index<D>& face, const Index<D>& beyond) {
+      const Index<D>& other = coefficients_.number(beyond, density) > 0 ? beyond : cell;
+      return between(cell, other, [&] { return strain(face, axis); }).greatest(here.specificHeat, here.density);
+    };
+    const Index<D> below = cell - Index<D>::unit(axis), above = cell + Index<D>::unit(axis);
+    const double perWidth = level_.inverseSpacing(axis);
+    return (at(cell, below) + at(above, above)) * perWidth * perWidth;
   }
 
  private:
   /// Indices of a cell's coefficients.
   enum : std::size_t { viscosity, conductivity, density };
 
+  /// The coefficients at the face between two cells, where the strain rate is `strain()` [1/s].
+  template <class Strain>
+  Diffusion between(const Index<D>& one, const Index<D>& other, Strain&& strain) const {
+    const auto mean = [&](std::size_t k) {
+      return 0.5 * (coefficients_.number(one, k) + coefficients_.number(other, k));
+    };
+    Diffusion here{mean(viscosity), mean(conductivity)};
+    if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain();
+    return most_ ? here.least(mostAt(one)).least(mostAt(other)) : here;
+  }
   /// Stores the largest viscosity and conductivity at the faces of a cell; infinite for a cell without gas.
   void storeMost(const Index<D>& at, const DiffusingCell<D>& cell) {
     State<D> most;
@@ -183,6 +195,24 @@ void diffuse(const Patch& patch, Diffuser<D>& diffuser, double dt, CellAt&& cell
       addDiffused<D>(dt / patch.level().spacing(axis), block, axis, flux, momentum, totalEnergy);
     }
   });
+}
+
+/// The rate [1/s] at which diffusion crosses each cell of the patch along each axis, in the places of the velocities;
+/// 0 in a cell without gas.
+template <int D, class CellAt>
+Rows<D> ratesOfDiffusion(const Patch& patch, Diffuser<D>& diffuser, CellAt&& cellAt) {
+  Rows<D> rates(patch.cells().size());
+  rates.hold(patch.cells());
+  forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    diffuser.hold(block, cellAt);
+    forEach<D>(block, [&](const Index<D>& cell) {
+      const DiffusingCell<D> here = cellAt(cell);
+      State<D> rate{};
+      for (int d = 0; d < D && here.density > 0; ++d) rate[kVelocity(d)] = diffuser.diffusionAlong(cell, here, d);
+      store<D>(rates.at(cell), 0, rate);
+    });
+  });
+  return rates;
 }
 
 /// The largest rate [1/s] at which flow and diffusion together cross any cell of the patch.

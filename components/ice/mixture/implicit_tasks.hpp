@@ -131,8 +131,8 @@ void limitImplicitMixture(const Patch& patch, const Gases& gases, const euler::C
     gas.hold(cells, euler::viewsOf<const double, D>(before, held));
     euler::Rows<D, K> pushing = gas.old();
     gas.fillWithPressure(pressure, pushing);
-    greatest =
-        greatestImplicitRate<D, K>(patch, gas, pushing, settings.soundSpeedKnob, courant, [](double) { return 0.0; });
+    greatest = greatestImplicitRate<D, K>(patch, gas, pushing, settings.soundSpeedKnob, courant,
+                                          [](const Index<D>&, int) { return 0.0; });
   });
   if (greatest > 0) dt.add(courant.number / greatest, "CFL");
 }

@@ -240,12 +240,11 @@ void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCel
   if (greatest > 0) dt.add(settings.gas.courant.number / greatest, "diffusion");
 }
 
-/// Computes dt = cfl / max(sum_d (|v_d| + k c) / h_d + (nu_below + nu_above) / (l h_d)²) for varying viscosity and
-/// conductivity. k = `soundSpeedKnob` is the fraction of the speed of sound that is included; nu and l are as in
-/// limitDiffusion.
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d + (nu_below + nu_above) / (l h_d)²) for varying viscosity and
+/// conductivity; nu and l are as in limitDiffusion.
 template <int D>
-void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
-                           double soundSpeedKnob, double time, double diffusivityAtStart, Minimum& dt) {
+void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double time,
+                           double diffusivityAtStart, Minimum& dt) {
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), settings.gas.gas, time);
   euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky,
                               euler::Diffusivities::bounded);
@@ -256,7 +255,7 @@ void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const G
     forEach<D>(block, [&](const Index<D>& cell) {
       if (cells.isEmpty(cell)) return;
       const double layer = std::min(1.0, layerOf(cells.free[cell]));
-      const euler::Crossing rate = diffuser.crossingOf(cell, cellAt(cell), soundSpeedKnob);
+      const euler::Crossing rate = diffuser.crossingOf(cell, cellAt(cell), 1);
       greatest = std::max(greatest, rate.byFlow + rate.byDiffusion / (layer * layer));
     });
   });

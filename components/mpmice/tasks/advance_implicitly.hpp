@@ -3,6 +3,7 @@
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/ice/pushed_gas.hpp"
 #include "components/ice/tasks/advance_implicitly.hpp"
+#include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
 #include "components/mpmice/tasks/solve_pressure.hpp"
 
@@ -79,12 +80,12 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
 }
 
 /// Computes dt = cfl / s as in `ice`, with the greatest rate s of ice::PushedGas. The acceleration a_d follows from the
-/// pressure of the gas itself.
-template <int D>
-void limitImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
-                       double diffusivityAtStart, Minimum& dt) {
+/// pressure of the gas itself. `diffusionAt(cell, density, speed of sound, d)` is the rate of diffusion along an axis
+/// [1/s] in a cell that the gas fills.
+template <int D, class DiffusionAt>
+void limitImplicitStepWith(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt,
+                           DiffusionAt&& diffusionAt) {
   const Level& level = patch.level();
-  const DiffusivityBound bound(level, diffusivityAtStart);
   const ice::IceSettings& implicit = *settings.implicit;
   const euler::Gas& gas = settings.gas.gas;
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
@@ -105,14 +106,12 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
     const double rho = w[euler::kDensity], stiff = w[p] + gas.pInfinity;
     if (!(stiff > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, stiff);
     const double c = std::sqrt(gas.soundSpeedSquared(rho, w[p])), sound = implicit.soundSpeedKnob * c;
-    const double diffusivity =
-        implicit.diffusion.acts() ? std::min(implicit.diffusion.greatest(gas, rho), bound.at(c)) : 0.0;
     const double layer = std::min(1.0, layerOf(cells.free[cell]));
     ice::PushedGas<D> crossed;
     for (int d = 0; d < D; ++d) {
       const double perWidth = level.inverseSpacing(d);
       crossed.flow[d] = (std::abs(w[euler::kVelocity(d)]) + sound) * perWidth;
-      crossed.diffusion[d] = 2 * diffusivity * (perWidth * perWidth) / (layer * layer);
+      crossed.diffusion[d] = diffusionAt(cell, rho, c, d) / (layer * layer);
       double most = 0;
       for (const int side : {0, 1}) {
         if (space.isAtSide(cell, d, side) || (near(cell) && !(space.aperture(cell, d, side) > 0))) continue;
@@ -126,6 +125,33 @@ void limitImplicitStep(const Patch& patch, const Settings& settings, const GasIn
     greatest = std::max(greatest, crossed.rate(crossing));
   });
   if (greatest > 0) dt.add(settings.gas.courant.number / greatest, "CFL");
+}
+
+/// Computes dt as in limitImplicitStepWith, with the diffusion 2 nu / h_d², where nu is the largest diffusivity.
+template <int D>
+void limitImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                       double diffusivityAtStart, Minimum& dt) {
+  const euler::Diffusion& diffusion = settings.implicit->diffusion;
+  const DiffusivityBound bound(patch.level(), diffusivityAtStart);
+  limitImplicitStepWith<D>(patch, settings, cells, dt, [&](const Index<D>&, double density, double sound, int d) {
+    if (!diffusion.acts()) return 0.0;
+    const double perWidth = patch.level().inverseSpacing(d);
+    return 2 * std::min(diffusion.greatest(settings.gas.gas, density), bound.at(sound)) * (perWidth * perWidth);
+  });
+}
+
+/// Computes dt as in limitImplicitStepWith, with the diffusion (nu_below + nu_above) / h_d² of varying coefficients.
+template <int D>
+void limitVaryingImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double time,
+                              double diffusivityAtStart, Minimum& dt) {
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), settings.gas.gas, time);
+  euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky,
+                              euler::Diffusivities::bounded);
+  euler::Rows<D> rates =
+      euler::ratesOfDiffusion<D>(patch, diffuser, diffusingGas<D>(patch.level(), settings, cells, diffusivityAtStart));
+  limitImplicitStepWith<D>(patch, settings, cells, dt, [&](const Index<D>& cell, double, double, int d) {
+    return rates.number(cell, euler::kVelocity(d));
+  });
 }
 
 }  // namespace tushar::mpmice
