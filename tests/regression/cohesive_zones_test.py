@@ -11,7 +11,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/python"))
 import tushar
-from solids import RefusedSceneTest, archive_of, globals_of, relative_drift
+from solids import RefusedSceneTest, SceneTest, archive_of, globals_of, relative_drift
 from sus import ROOT, run
 from uda import Folder
 
@@ -154,6 +154,53 @@ class TwoBlocks(unittest.TestCase):
                 found = globals_of(str(scene), "CohesiveWork")["CohesiveWork"][-1]
                 self.assertAlmostEqual(found[0], expected[0], delta=1e-4)
                 self.assertAlmostEqual(found[1] / expected[1], 1, delta=1e-4)
+
+
+class Halves(SceneTest):
+    """Glued blocks in front of symmetry planes move like that part of the whole."""
+    IMAGES = "</interpolator><mirror_images>true</mirror_images>"
+
+    def particles(self, lower, cells, interpolator):
+        """Positions, velocities, stresses and forces of zones after 60 steps, by name, in the order of positions."""
+        places = [np.arange(low + .025, .4 if axis == 0 else .2, .05) for axis, low in enumerate(lower)]
+        area = .05**2
+        zones = "".join(f"{x:.3f} 0.4 {z:.3f} {area} 0 1 0 1 0 0 0 1\n" for x in places[0] for z in places[1])
+        sides = "".join(f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
+                        for side in ("x-", "x+"))
+        text = TEXT.replace("<periodic>[1,0,0]</periodic>", "").replace('<Face side="z-">', sides + '<Face side="z-">', 1)
+        for before, after in (("<lower>[0,0,0]", f"<lower>[{lower[0]},0,{lower[1]}]"),
+                              ("[0.4,0.8,0.1]</upper>", "[0.4,0.8,0.2]</upper>"), ("[4,8,1]", f"[{cells[0]},8,{cells[1]}]"),
+                              ("<min>[0,0.1,0]", f"<min>[{lower[0]},0.1,{lower[1]}]"), ("0.4,0.1]</max>", "0.4,0.2]</max>"),
+                              ("<min>[0,0.4,0]", f"<min>[{lower[0]},0.4,{lower[1]}]"), ("0.7,0.1]</max>", "0.7,0.2]</max>"),
+                              ("[2,2,1]", "[2,2,2]"), ("<velocity>[0,-0.1,0]", "<velocity>[x,-0.1-x*x,-z]"),
+                              ("<velocity>[0,0.1,0]", "<velocity>[-x,0.1+z*z,2*z]"),
+                              ("gimp</interpolator>", interpolator)):
+            self.assertIn(before, text)
+            text = text.replace(before, after)
+        scene = self.scene(text)
+        (scene.parent / "glued_blocks.txt").write_text(zones)
+        sets = ("Time/max_Timesteps=60", "DataArchiver/outputInterval=1", "DataArchiver/save[6]/@label=p.stress")
+        found = {}
+        with tempfile.TemporaryDirectory() as folder:
+            with tushar.open(archive_of(scene, folder, *sets))[-1] as last:
+                for material in ("lower", "upper", "glue"):
+                    one = last.particles(material)
+                    x = one["p.x"][:]
+                    order = np.lexsort(np.round(x, 3).T)
+                    for name in ("p.czForce",) if material == "glue" else ("p.velocity", "p.stress"):
+                        found[material, name] = (x[order], one[name][:][order].reshape(len(x), -1))
+        return found
+
+    def test_move_like_those_of_the_whole(self):
+        for interpolator in ("linear</interpolator>", "gimp" + self.IMAGES, "3rdorderBS</interpolator>"):
+            whole = self.particles((-.4, -.2), (8, 4), interpolator)
+            part = self.particles((0, 0), (4, 2), interpolator)
+            for key, (x, values) in part.items():
+                with self.subTest(interpolator=interpolator, of=key):
+                    there, expected = whole[key]
+                    expected = expected[(there[:, [0, 2]] > 0).all(axis=1)]
+                    self.assertEqual(expected.shape, values.shape)
+                    self.assertLess(np.abs(values - expected).max() / np.abs(expected).max(), 1e-10)
 
 
 class Bits(unittest.TestCase):

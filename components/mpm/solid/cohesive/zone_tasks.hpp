@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <tuple>
 #include <vector>
 
 #include "components/mpm/shapes/linear.hpp"
@@ -13,8 +12,8 @@
 namespace tushar::mpm::solid {
 
 // A zone acts between the two bodies at the nodes k of its cell. With the multilinear S_k at the zone and the masses
-// m_k of a body, the body has the weights w_k = S_k m_k / sum_j S_j m_j. Its velocity at the zone is sum_k w_k v_k, and
-// its share of the zone's force F at a node is w_k F. So
+// m_k of a body, its mirror images beyond symmetry planes included, the body has the weights w_k = S_k m_k / sum_j S_j
+// m_j. Its velocity at the zone is sum_k w_k v_k, and its share of the zone's force F at a node is w_k F. So
 // - both bodies receive the same force, up to the sign;
 // - no node gets a larger acceleration than F / sum_j S_j m_j, however little mass it has;
 // - the power of the force at the nodes is exactly that of F at the jump of the velocity: what the zone takes, its
@@ -82,17 +81,33 @@ void forEachZone(const Patch& patch, ParticleView<const Vec<D>> x, const Box& ce
 /// Records of the nodes of all bodies, by material.
 using BodyRecords = std::vector<NodeView<const NodeRecord>>;
 
+/// Returns the mass of a body at a node, including its mirror images beyond symmetry planes [kg]: twice that of the
+/// record for each plane on which the node lies.
+template <int D>
+double massWithImages(const Level& level, int material, const Index<D>& node, const NodeRecord& record) {
+  double mass = record[lane::mass];
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1})
+      if (node[d] == (side == 0 ? level.cells().lower[d] : level.cells().upper[d]) &&
+          level.isSymmetry(d, side, material))
+        mass *= 2;
+  return mass;
+}
+
 /// Computes the masses sum_k S_k m_k of both bodies at each zone.
 template <int D>
 void weighCohesiveZones(const Patch& patch, const CohesiveZones&, const BodyRecords& records,
                         ParticleView<const Vec<D>> x, ParticleView<const int> bottom, ParticleView<const int> top,
                         ParticleView<double> massBottom, ParticleView<double> massTop) {
   forEachZone<D>(patch, x, patch.cells(), [&](int p, const auto& nodes, const auto& weights) {
-    massBottom[p] = massTop[p] = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      massBottom[p] += weights[k] * records[bottom[p]][nodes[k]][lane::mass];
-      massTop[p] += weights[k] * records[top[p]][nodes[k]][lane::mass];
-    }
+    const auto sum = [&](int material) {
+      double mass = 0;
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        mass += weights[k] * massWithImages<D>(patch.level(), material, nodes[k], records[material][nodes[k]]);
+      return mass;
+    };
+    massBottom[p] = sum(bottom[p]);
+    massTop[p] = sum(top[p]);
   });
 }
 
@@ -118,18 +133,19 @@ struct ActingZones {
 template <int D>
 void addCohesiveZoneForces(const Patch& patch, const std::vector<Material>&, const std::vector<ActingZones<D>>& sets,
                            const Records& records) {
-  const auto add = [](NodeRecord& record, double share, const Vec<D>& force) {
-    const Vec<D> sum = lanes<D>(record, lane::force) + share * record[lane::mass] * force;
+  const auto add = [&](int material, const Index<D>& node, double share, const Vec<D>& force) {
+    NodeRecord& record = records[material][node];
+    const double mass = massWithImages<D>(patch.level(), material, node, record);
+    const Vec<D> sum = lanes<D>(record, lane::force) + share * mass * force;
     setLanes<D>(record, lane::force, sum);
   };
   for (const ActingZones<D>& set : sets)
     forEachZone<D>(patch, set.x, set.x.cells(), [&](int p, const auto& nodes, const auto& weights) {
       if (!(set.massBottom[p] > 0 && set.massTop[p] > 0)) return;
-      const auto& [bottom, top] = std::tie(records[set.bottom[p]], records[set.top[p]]);
       for (std::size_t k = 0; k < nodes.size(); ++k) {
-        if (!bottom.box().contains(nodes[k])) continue;
-        add(bottom[nodes[k]], weights[k] / set.massBottom[p], set.force[p]);
-        add(top[nodes[k]], -weights[k] / set.massTop[p], set.force[p]);
+        if (!records[set.bottom[p]].box().contains(nodes[k])) continue;
+        add(set.bottom[p], nodes[k], weights[k] / set.massBottom[p], set.force[p]);
+        add(set.top[p], nodes[k], -weights[k] / set.massTop[p], set.force[p]);
       }
     });
 }
@@ -163,8 +179,10 @@ struct ZonePlaces {
       const auto mean = [&](int material, double mass) {
         Vec<D> sum = Vec<D>::Zero();
         for (std::size_t k = 0; k < nodes.size(); ++k)
-          if (const NodeRecord& record = records[material][nodes[k]]; record[lane::mass] > 0)
-            sum += weights[k] * record[lane::mass] / mass * velocityOf(record);
+          if (const NodeRecord& record = records[material][nodes[k]]; record[lane::mass] > 0) {
+            const double here = massWithImages<D>(patch.level(), material, nodes[k], record);
+            sum += weights[k] * here / mass * velocityOf(record);
+          }
         return sum;
       };
       ZoneVelocity<D> velocity;
