@@ -62,7 +62,7 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> t
 /// no cell overshoots its neighbours.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt) {
-  const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature);
+  const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature, patch.cells());
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     dt.add(settings.cfl * settings.capacity() / diffusion.rate(cell), "conduction");
   });
@@ -73,7 +73,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum
 template <int D>
 void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,
              CellView<double> newTemperature, RimFlux<double> flux = {}) {
-  const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature);
+  const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature, patch.cells());
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     newTemperature[cell] = temperature[cell] + dt / settings.capacity() * diffusion(temperature, cell);
   });

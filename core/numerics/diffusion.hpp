@@ -63,6 +63,14 @@ class Diffusion {
   Diffusion(const grid::Level& level, const input::Expression& k, const grid::BoundaryLabel<double>& phi)
       : level_(level), k_(k), sides_(level.sides(phi)) {}
 
+  /// The same, with k evaluated once in each of `cells`, and in those beside them, when this object is made; for tasks
+  /// that visit these cells.
+  Diffusion(const grid::Level& level, const input::Expression& k, const grid::BoundaryLabel<double>& phi,
+            const grid::Box& cells)
+      : Diffusion(level, k, phi) {
+    if (!k.isConstant()) hold(cells);
+  }
+
   /// div(k grad phi) in a cell, for explicit steps. At a side of the grid, k is the value in the cell. The view needs
   /// one layer of ghost cells.
   double operator()(const data::CellView<const double>& phi, const Index<D>& cell) const {
@@ -117,8 +125,24 @@ class Diffusion {
         visit(d, side, next, level_.isPeriodic(d) || (next[d] >= 0 && next[d] < level_.cells().upper[d]));
       }
   }
+  /// Evaluates k in some cells of the grid and in those beside them.
+  void hold(const grid::Box& cells) {
+    held_ = cells.grown(1, D);
+    values_.resize(static_cast<std::size_t>(held_.size()));
+    const data::CellView<double> held(values_.data(), held_);
+    forEach<D>(cells, [&](const Index<D>& cell) {
+      held[cell] = evaluated(cell);
+      forEachFace(cell, [&](int, int, const Index<D>& next, bool isInside) {
+        if (isInside && !cells.contains(next)) held[next] = evaluated(next);
+      });
+    });
+  }
   /// k at the centre of a cell of the grid or of its periodic images.
   double inCell(const Index<D>& cell) const {
+    if (!values_.empty() && held_.contains(cell)) return data::CellView<const double>(values_.data(), held_)[cell];
+    return evaluated(cell);
+  }
+  double evaluated(const Index<D>& cell) const {
     return k_(level_.template expandPoint<D>(level_.template cellCentre<D>(level_.template wrapped<D>(cell))));
   }
   double atFace(const Index<D>& cell, const Index<D>& next, bool isInside) const {
@@ -159,6 +183,8 @@ class Diffusion {
   const grid::Level& level_;
   const input::Expression& k_;
   grid::BoundarySides<double> sides_;
+  grid::Box held_ = {};
+  std::vector<double> values_;  ///< k in the cells of `held_`, if any
 };
 
 }  // namespace tushar::numerics

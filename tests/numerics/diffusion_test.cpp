@@ -88,6 +88,21 @@ TEST(Diffusion, GivesTheSumOfWeightsThatLimitsAStep) {
   EXPECT_DOUBLE_EQ(Diffusion<1>(level, k, phiLabel).rate(Index<1>{{1}}), 2 * 2 * 16);
 }
 
+/// Of a part of a grid, k is held in its cells and beside them; elsewhere, it is evaluated as before.
+TEST(Diffusion, IsTheSameWithHeldCoefficients) {
+  grid::Domain domain = line();
+  const input::Expression k = formula("1 + x");
+  for (const bool isPeriodic : {false, true}) {
+    domain.periodic[0] = isPeriodic;
+    const grid::Level level(domain);
+    const Diffusion<1> once(level, k, phiLabel);
+    for (const int upper : {2, 4}) {
+      const Diffusion<1> held(level, k, phiLabel, grid::Box{{}, Index3{{upper, 1, 1}}});
+      for (int i = 0; i < 4; ++i) EXPECT_EQ(held.rate(Index<1>{{i}}), once.rate(Index<1>{{i}}));
+    }
+  }
+}
+
 TEST(Diffusion, ReachesAcrossAPeriodicSide) {
   grid::Domain domain = line();
   domain.periodic = {{1, 0, 0}};
