@@ -215,5 +215,44 @@ class Implicit(SceneTest):
         self.assertGreater(result.report["retries"], 0)
 
 
+def oscillating(lower):
+    """A bar of 16 cells, of which those beyond `lower` [m] are there, that starts to stretch away from x = 0."""
+    planes = "".join(f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
+                     for side in ("x-", "y-", "z-", "z+"))
+    return f"""<?xml version="1.0"?><Uintah_specification><SimulationComponent type="impm"/>
+<Time><maxTime>100</maxTime><delt_init>.002</delt_init><delt_max>.002</delt_max><max_Timesteps>6</max_Timesteps></Time>
+<Grid><BoundaryConditions>{planes}</BoundaryConditions><Level><Box><lower>[{lower},0,0]</lower><upper>[1,.3,.1]</upper>
+<resolution>[{round((1 - lower) * 10)},3,1]</resolution></Box></Level></Grid>
+<DataArchiver><filebase>a.uda</filebase><outputTimestepInterval>6</outputTimestepInterval><save label="p.x"/>
+<save label="p.velocity"/></DataArchiver>
+<MPM><time_integrator>implicit</time_integrator><interpolator>linear</interpolator><dynamic>true</dynamic>
+<Solver><solver>direct</solver><preconditioner>lu</preconditioner></Solver>
+<convergence_criteria_disp>1e-20</convergence_criteria_disp>
+<convergence_criteria_energy>1e-20</convergence_criteria_energy></MPM>
+<PhysicalConstants><gravity>[0,0,0]</gravity></PhysicalConstants><MaterialProperties><MPM><material name="bar">
+<density>1000</density><constitutive_model type="comp_neo_hook"><bulk_modulus>166667</bulk_modulus>
+<shear_modulus>76923</shear_modulus></constitutive_model><geom_object><box><min>[{max(lower, -.4)},0,0]</min>
+<max>[.4,.15,.1]</max></box><res>[2,2,1]</res><velocity>[2*x,-.5*y,0]</velocity></geom_object></material></MPM>
+</MaterialProperties></Uintah_specification>"""
+
+
+class Halves(SceneTest):
+    def velocities(self, lower):
+        """Velocities of the particles at x > 0, in the order of their places."""
+        state = last_state(self.scene(oscillating(lower)), "p.velocity")
+        columns = [name for name in state if name.startswith("p.velocity")]
+        rows = zip(*(map(float, state[name]) for name in ("x [m]", "y [m]", *columns)))
+        return [row[2:] for row in sorted((round(x, 6), round(y, 6), *v) for x, y, *v in rows) if row[0] > 0]
+
+    def test_of_a_body_that_moves_are_half_of_the_whole(self):
+        """Nodes on a symmetry plane do not move along its normal: the particles beyond move the opposite way. Until 29
+        November 2026, they had the mean velocity of the particles in front, and swung about 0."""
+        whole, half = self.velocities(-1), self.velocities(0)
+        self.assertEqual(len(half), 24)
+        for expected, found in zip(whole, half, strict=True):
+            for one, other in zip(expected, found):
+                self.assertAlmostEqual(one, other, delta=1e-11)
+
+
 if __name__ == "__main__":
     unittest.main()

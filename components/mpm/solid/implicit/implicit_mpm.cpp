@@ -101,7 +101,7 @@ void ImplicitMpm<D>::scheduleVelocity(TaskList& tasks) const {
 template <int D>
 void ImplicitMpm<D>::scheduleHeat(TaskList& tasks) const {
   const Vec3& commonSize = problem_.method.commonSize;
-  scheduleNodalTemperature(tasks, shapes_->shaped, problem_.materials, commonSize, keepsSizes);
+  scheduleNodalTemperature(tasks, shapes_->shaped, problem_.materials, commonSize, keepsSizes, false);
   if (how_.conductsHeat) {
     tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<D>, problem_.materials, togetherOnRanks(),
                                  with(setup()), requiresOld(delT), all<HeatedParticles<D>>(),

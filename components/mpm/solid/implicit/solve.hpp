@@ -15,7 +15,7 @@ void prescribeFaces(ImplicitSystem<D>& system, double dt) {
       for (const int side : {0, 1}) {
         const int at = system.nodes().node(k)[d], face = side == 0 ? 0 : level.cells().extent(d);
         if (level.isPeriodic(d) || (side == 0 ? at > face : at < face)) continue;
-        if (level.isSymmetry(d, side) && at == face) system.prescribe(k, d, 0);
+        if (level.isSymmetry(d, side) && at == face) system.holdAtPlane(k, d);
         const auto& given = sides(d, side);
         if (!given || !given->isDirichlet()) continue;
         const Vec<D> velocity = level.reduce<D>(given->value);
@@ -165,6 +165,7 @@ void solveStep(const RankPatches& patches, const std::vector<Material>& material
   std::vector<double> u = system.guess();
   const solvers::Outcome outcome = solvers::solve(system.unknowns(), system, setup.how.newton, u);
   if (!outcome.converged) throw failureOf(outcome, system);
+  system.hold(u);
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (std::size_t m = 0; m < materials.size(); ++m) {
       if (rigid[m])

@@ -40,9 +40,15 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   solvers::Unknowns unknowns() const;
   /// Prescribes the displacement of a node along an axis, `value` [m].
   void prescribe(int node, int d, double value);
+  /// Holds a node on a symmetry plane normal to an axis. Its velocity and acceleration along this axis are 0, because
+  /// particles beyond the plane move the opposite way.
+  void holdAtPlane(int node, int d);
   /// The initial guess: the displacement of each node due to its velocity [m], or the prescribed one.
   std::vector<double> guess() const;
+  /// Sets the prescribed displacements in `u` [m]. A linear solver keeps them only to its tolerance.
+  void hold(std::span<double> u) const;
 
+  /// The residual at `u` with the prescribed displacements.
   bool residual(std::span<const double> u, std::span<double> r) override;
   void tangent(solvers::Matrix& matrix) override;
   /// Whether the residual of every node is at most 1e-14 of the sum of the forces on it, where each particle
@@ -57,7 +63,9 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// The forces that enforce the prescribed displacements, at the nodes of this rank [N]; 0 along free axes.
   std::vector<double> reactions() const;
 
-  /// Acceleration of a node, computed from its displacement in the step [m/s^2]; 0 without inertia.
+  /// Acceleration of a node at the end of the step, computed from its displacement u [m/s^2]; 0 without inertia. It is
+  /// that of Newmark's rule, 4 (u/dt - v)/dt - a, or, where the displacement is prescribed, 2 (u/dt - v)/dt - a: then
+  /// the node ends the step with the prescribed velocity u/dt, instead of 2 u/dt - v, which would swing about it.
   Vec<D> acceleration(int node, std::span<const double> u) const;
   Vec<D> displacement(int node, std::span<const double> u) const {
     return Eigen::Map<const Vec<D>>(u.data() + D * node);

@@ -180,6 +180,12 @@ void ImplicitSystem<D>::prescribe(int node, int d, double value) {
 }
 
 template <int D>
+void ImplicitSystem<D>::holdAtPlane(int node, int d) {
+  prescribe(node, d, 0);
+  node_[node].velocity[d] = node_[node].acceleration[d] = 0;
+}
+
+template <int D>
 std::vector<double> ImplicitSystem<D>::guess() const {
   std::vector<double> u = prescribed_value_;
   for (int k = 0; k < map_.size(); ++k)
@@ -192,7 +198,11 @@ template <int D>
 auto ImplicitSystem<D>::acceleration(int node, std::span<const double> u) const -> Vec<D> {
   if (!how_.dynamic) return Vec<D>::Zero();
   const Node& n = node_[node];
-  return 4 / dt_ * (displacement(node, u) / dt_ - n.velocity) - n.acceleration;
+  const Vec<D> change = displacement(node, u) / dt_ - n.velocity;
+  Vec<D> acceleration = 4 / dt_ * change - n.acceleration;
+  for (int d = 0; d < D; ++d)
+    if (isPrescribed(node, d)) acceleration[d] = 2 / dt_ * change[d] - n.acceleration[d];
+  return acceleration;
 }
 
 template <int D>
@@ -216,7 +226,15 @@ Matrix3 ImplicitSystem<D>::displacementGradient(std::size_t point, std::span<con
 }
 
 template <int D>
-bool ImplicitSystem<D>::residual(std::span<const double> u, std::span<double> r) {
+void ImplicitSystem<D>::hold(std::span<double> u) const {
+  for (std::size_t k = 0; k < prescribed_.size(); ++k)
+    if (prescribed_[k]) u[k] = prescribed_value_[k];
+}
+
+template <int D>
+bool ImplicitSystem<D>::residual(std::span<const double> given, std::span<double> r) {
+  std::vector<double> u(given.begin(), given.end());
+  hold(u);
   std::fill(r.begin(), r.end(), 0.0);
   for (int k = 0; k < map_.owned(); ++k) {
     const Node& node = node_[k];
