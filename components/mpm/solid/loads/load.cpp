@@ -117,10 +117,10 @@ Vec3 normalAt(const Surface& surface, const Vec3& point) {
 
 bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point) {
   const Vec3 spacing = particleSpacing(level, body);
-  const int axes = level.domain().resolution[2] > 1 ? 3 : 2;
-  for (int d = 0; d < axes; ++d)
+  for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0})
-      if (!body.shape->contains(point + side * spacing[d] * Vec3::Unit(d))) return true;
+      if (level.domain().resolution[axis] > 1 && !body.shape->contains(point + side * spacing[axis] * Vec3::Unit(axis)))
+        return true;
   return false;
 }
 

@@ -99,7 +99,7 @@ void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&&
 /// The distance between the particles of a body along x, y, z [m].
 Vec3 particleSpacing(const grid::Level& level, const Body& body);
 /// Whether a particle that starts at `point` is at the surface of its body: at least one neighbouring particle would be
-/// outside. On a grid of one cell along z, neighbours along z are ignored.
+/// outside. Neighbours along an axis with one cell are ignored.
 bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point);
 
 /// Computes SurfaceLoad::particles: sums the weights of the particles at the surface of each load.

@@ -116,6 +116,25 @@ ParticleBox particleAt(const Vec3& middle, const Matrix3& f = Matrix3::Identity(
   return {middle, start, f * start};
 }
 
+/// An axis with one cell does not count, whichever it is: all particles would be at the surface.
+TEST(Load, ActsAtSurfacesAlongAxesWithSeveralCells) {
+  for (int thin = 0; thin < 3; ++thin) {
+    grid::Domain domain;
+    domain.upper = Vec3::Constant(4);
+    domain.resolution = Index3::filled(4);
+    domain.resolution[thin] = 1;
+    const grid::Level level(domain);
+    auto box = std::make_shared<input::Box>();
+    box->max = Vec3::Constant(4);
+    Body body;
+    body.shape = box;
+    const int next = (thin + 1) % 3;
+    const Vec3 inside = Vec3::Constant(1.5) + 0.5 * Vec3::Unit(thin), beside = inside - Vec3::Unit(next);
+    EXPECT_FALSE(isAtSurface(level, body, inside)) << "thin along axis " << thin;
+    EXPECT_TRUE(isAtSurface(level, body, beside)) << "thin along axis " << thin;
+  }
+}
+
 TEST(CornerLoad, IsThePressureTimesTheAreaAtTheCornersOfAFace) {
   const Loads loads{{onASquare(LoadKind::pressure)}, {}};
   const auto load = cornerLoad(loads, 1, particleAt(Vec3(0.9, 1, 1)), 1);
