@@ -75,6 +75,17 @@ class ImplicitSteps(SceneTest):
         speed = momentum["TotalMomentum"][-1][1] - momentum["GasMomentum"][-1][1]
         self.assertLess(abs(speed - .78825284), 1.5 * 3.1e-3)
 
+    def test_push_a_light_body_alike_in_one_and_two_dimensions(self):
+        """Faces side by side push the same nodes, which counts in how a wall yields to pressure."""
+        text = implicit(changed(fsi.scene("gun").read_text(), ("<density>5<", "<density>0.5<")))
+        speeds = []
+        for cells in ("[75,1,1]", "[75,2,1]"):
+            last = {name: lines[-1][1] for name, lines in globals_of(
+                self.scene(text), "TotalMomentum", "GasMomentum",
+                sets=(f"Grid/Level/Box/resolution={cells}", "Time/max_Timesteps=10")).items()}
+            speeds.append(last["TotalMomentum"] - last["GasMomentum"])
+        self.assertAlmostEqual(speeds[1] / speeds[0], 1, delta=1e-7)
+
     def test_have_the_same_bits_on_patches_with_threads_and_after_a_restart(self):
         scene = self.scene(self.SCENE)
         sets = fsi.resolution("carried_disc", 25)

@@ -148,6 +148,9 @@ class Sweeps {
   }
 
  private:
+  /// The volume, in cells, below which a box is not taken to move through a face: round-off decides on which side of
+  /// the face its edge is.
+  static constexpr double roundOffOfEdges = 1e-12;
   /// A number for each cell along one axis of those that a box reaches while it moves.
   using Along = std::array<double, 2 * (boxReach + 2)>;
   static_assert(std::tuple_size_v<Along> % 4 == 0);
@@ -204,6 +207,7 @@ void Sweeps<D>::add(const Index<D>& origin, const ParticleBox<D>& before, const 
       }
       const double volume = 0.5 * up[a][k[a]] * (rising + falling);
       faces_.volume[cell][a] += volume;
+      if (std::abs(volume) < roundOffOfEdges) continue;
       faces_.shift[cell][a] += std::abs(volume) * (after.middle[a] - before.middle[a]);
       weights[a] += std::abs(volume);
     }

@@ -90,8 +90,8 @@ void guessPressure(const Patch& patch, const Settings& settings, const GasInCell
   });
 }
 
-/// Computes the speed of walls at the start of the step, and their acceleration per pressure; the accelerated mass is
-/// that which belongs to the face.
+/// Computes the speed of walls at the start of the step, and their acceleration per pressure. The accelerated mass is
+/// that which belongs to the face, as if the same pressure acted on the faces beside it, which push the same nodes.
 template <int D>
 void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                     const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
@@ -102,6 +102,7 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
   const FreeSpace<D> space(level, settings, cells);
   const BodiesAtNodes<D> bodies(level, records);
+  constexpr double facesOfNode = 1 << (D - 1);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     for (int d = 0; d < D; ++d) {
       const OpenFaces faces = space.faces(cell, d);
@@ -110,7 +111,7 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
       };
       const auto yield = [&](const Index<D>& face, double wall) {
         const double mass = settings.areRigid ? 0 : bodies.massAt(face, d);
-        return mass > 0 ? wall * level.cellVolume() * level.inverseSpacing(d) / mass : 0;
+        return mass > 0 ? wall * level.cellVolume() * level.inverseSpacing(d) * facesOfNode / mass : 0;
       };
       const Index<D> above = cell + Index<D>::unit(d);
       if (faces.wall(0) > 0) {
