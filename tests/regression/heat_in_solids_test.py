@@ -62,6 +62,37 @@ class HeatInSolids(SceneTest):
             energy = [line[1] for line in globals_of(with_condition, "ThermalEnergy")["ThermalEnergy"]]
             self.assertLess(max(energy) - min(energy), 1e-11 * energy[0])
 
+    def given(self, interpolator, conductivity, resolution, end):
+        """Positions and temperatures at the end in a bar at 300 K whose left side has 500 K and whose right side has
+        300 K; each particle stands for a column."""
+        sides = PLANES
+        for side, value in (("x-", 500), ("x+", 300)):
+            sides = sides.replace(f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>',
+                                  f'<Face side="{side}"><BCType id="all" label="Temperature" var="Dirichlet"><value>'
+                                  f'{value}</value></BCType></Face>')
+        text = scene(interpolator, conductivity).replace(PLANES, sides).replace("x &lt; .5 ? 300 : 400", "300")
+        text = text.replace("[2,2,1]</res>", f"[{resolution},2,1]</res>").replace("<delt_max>1<", "<delt_max>7e-4<")
+        state = last_state(self.scene(text.replace(">.05<", f">{end}<")), "p.temperature")
+        return [(float(x), float(t)) for x, t in zip(state["x [m]"], state["p.temperature [K]"])]
+
+    def test_particles_follow_given_temperatures_without_overshoot(self):
+        """Until 29 November 2026, particles beside the side reached 540 K with two particles per cell, 567 K with
+        four, even without conduction."""
+        for interpolator in ("linear", "gimp", "cpdi", "3rdorderBS"):
+            for resolution in (1, 2, 4):
+                for conductivity in (1e-6, 1e6):
+                    with self.subTest(interpolator, resolution=resolution, conductivity=conductivity):
+                        values = [t for _, t in self.given(interpolator, conductivity, resolution, .05)]
+                        self.assertGreater(min(values), 300 - 1e-9)
+                        self.assertLess(max(values), 500)
+
+    def test_steady_temperatures_between_given_ones_are_exact(self):
+        for interpolator in ("linear", "gimp", "cpdi"):
+            for resolution in (1, 2, 4):
+                with self.subTest(interpolator, resolution=resolution):
+                    for x, temperature in self.given(interpolator, 1e6, resolution, 4):
+                        self.assertAlmostEqual(temperature, 500 - 200 * x, delta=1e-5)
+
     def test_flows_of_heat_through_a_side_are_refused(self):
         flow = '<BCType id="all" label="Temperature" var="Neumann"><value>5</value></BCType></Face>'
         ended = run(self.scene(scene("gimp", 1e5).replace("</Face>", flow, 1)))

@@ -92,6 +92,10 @@ inline constexpr NodeLabel<double> frictionHeat{"g.frictionHeat", "J", "friction
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperaturenobc", "K", "temperature gathered from particles"};
 inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "temperature with the boundary conditions"};
+inline constexpr NodeLabel<double> hasGivenTemperature{"g.hasGivenTemperature", "1",
+                                                       "1 where a side of the grid gives the temperature, 0 elsewhere"};
+inline constexpr NodeLabel<double> givenTemperatureChange{
+    "g.givenTemperatureChange", "K", "change with which particles follow a given temperature in the step"};
 inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that reaches the node by conduction"};
 inline constexpr NodeLabel<double> contactTemperatureRate{
     "g.contactTemperatureRate", "K/s", "rate of change of the temperature due to contact with other materials"};

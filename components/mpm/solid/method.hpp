@@ -50,9 +50,10 @@ struct Method {
   bool sharesVolume = false;
   bool isGranular = false;  ///< DoGranularMPM: whether grains that do not touch move separately
   bool conductsHeat = true;
-  bool loadsAtCorners = false;  ///< use_CBDI_boundary_condition: whether pressures act on faces of particles
-  bool contactHeats = false;    ///< do_contact_friction_heating: whether friction in contacts heats bodies
-  bool thermalContact = false;  ///< whether materials that share nodes share a temperature
+  bool givesTemperatures = false;  ///< whether sides of the grid have given temperatures
+  bool loadsAtCorners = false;     ///< use_CBDI_boundary_condition: whether pressures act on faces of particles
+  bool contactHeats = false;       ///< do_contact_friction_heating: whether friction in contacts heats bodies
+  bool thermalContact = false;     ///< whether materials that share nodes share a temperature
 };
 
 }  // namespace tushar::mpm::solid

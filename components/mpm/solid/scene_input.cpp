@@ -67,6 +67,12 @@ void settleParticles(const Level& level, Problem& problem) {
       problem.method.nonlocalLayers =
           std::max(problem.method.nonlocalLayers,
                    static_cast<int>(std::ceil(material.model->nonlocalLength() / level.spacing(d))));
+  for (int material = 0; material < static_cast<int>(problem.materials.size()); ++material)
+    for (int d = 0; d < level.dimension(); ++d)
+      for (const int side : {0, 1}) {
+        const auto given = level.boundary(d, side, boundary::temperature, material);
+        problem.method.givesTemperatures |= given && given->isDirichlet();
+      }
   problem.method.isThin = {true, true, true};
   for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[level.axis(d)] = false;
 }

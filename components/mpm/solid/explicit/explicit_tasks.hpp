@@ -31,6 +31,7 @@ struct ExplicitTasks {
   decltype(&solid::computeSSPlusVp<LinearShape<D>>) computeSSPlusVp;
   decltype(&solid::applyXpic<LinearShape<D>>) applyXpic;
   decltype(&solid::computeInternalHeatRate<LinearShape<D>>) computeInternalHeatRate;
+  decltype(&solid::followGivenTemperature<LinearShape<D>>) followGivenTemperature;
   decltype(&solid::addAffineVelocity<LinearShape<D>>) addAffineVelocity =
       nullptr;  ///< null if it is not available with these shape functions
   decltype(&solid::updateAffineMoment<LinearShape<D>>) updateAffineMoment =
@@ -54,7 +55,8 @@ constexpr ExplicitTasks<D> explicitTasks() {
                          .blendVelocity = blendVelocity<Shape>,
                          .computeSSPlusVp = computeSSPlusVp<Shape>,
                          .applyXpic = applyXpic<Shape>,
-                         .computeInternalHeatRate = computeInternalHeatRate<Shape>};
+                         .computeInternalHeatRate = computeInternalHeatRate<Shape>,
+                         .followGivenTemperature = followGivenTemperature<Shape>};
   if constexpr (!Shape::deforms && !Shape::axisymmetric) {
     tasks.addAffineVelocity = addAffineVelocity<Shape>;
     tasks.updateAffineMoment = updateAffineMoment<Shape>;

@@ -252,7 +252,11 @@ template <int D>
 void SolidMpm<D>::scheduleHeat(TaskList& tasks) const {
   if (!problem_.method.conductsHeat) return;
   const auto& [materials, commonSize] = std::tie(problem_.materials, problem_.method.commonSize);
-  scheduleNodalTemperature(tasks, bodies_->shaped, materials, commonSize, keepsSizes());
+  const bool isAnyGiven = problem_.method.givesTemperatures;
+  scheduleNodalTemperature(tasks, bodies_->shaped, materials, commonSize, keepsSizes(), isAnyGiven);
+  if (isAnyGiven)
+    tasks.perMaterial("mpm::followGivenTemperature", bodies_->followGivenTemperature, materials, with(commonSize),
+                      all<NearGivenTemperature<D>>(shapes_, keepsSizes()));
   scheduleHeatFlux(tasks);
   tasks.perMaterial("mpm::computeInternalHeatRate", bodies_->computeInternalHeatRate, materials, with(commonSize),
                     all<HeatFlow<D>>(shapes_, keepsSizes(), problem_.start.loads.hasHeat()));

@@ -222,7 +222,8 @@ void SolidsOf<D>::scheduleTemperatureRate(TaskList& tasks) const {
                           requiresNew(g::heatCapacity), requiresNew(g::temperature), requiresOld(delT),
                           computes(g::contactTemperatureRate));
   tasks.perMaterial("mpm::integrateTemperatureRate", integrateTemperatureRate<D>, problem_.materials,
-                    all<NodalHeating>(hasContact, rubbingHeats()), requiresOld(delT));
+                    all<NodalHeating>(hasContact, rubbingHeats(), problem_.method.givesTemperatures),
+                    requiresOld(delT));
 }
 
 template <int D>

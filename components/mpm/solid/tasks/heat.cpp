@@ -11,18 +11,14 @@
 
 namespace tushar::mpm::solid {
 
-template <int D>
-void setTemperature(const Patch& patch, int material, NodeView<double> field) {
-  for (int d = 0; d < D; ++d)
+void forEachGivenTemperature(const Patch& patch, int material, FunctionRef<void(const Box&, double)> visit) {
+  for (int d = 0; d < patch.level().dimension(); ++d)
     for (const int side : {0, 1}) {
       if (!grid::mayTouchSide(patch, d, side)) continue;
       const auto given = patch.level().boundary(d, side, boundary::temperature, material);
       if (!given || !given->isDirichlet()) continue;
-      const auto set = [&](const Box& nodes) {
-        forEach<D>(nodes, [&](const Index<D>& node) { field[node] = given->value; });
-      };
-      grid::forEachBoxOnSide(patch, d, side, set);
-      grid::forEachBoxBeyond(patch, d, side, [&](const Box& nodes, int) { set(nodes); });
+      grid::forEachBoxOnSide(patch, d, side, [&](const Box& nodes) { visit(nodes, given->value); });
+      grid::forEachBoxBeyond(patch, d, side, [&](const Box& nodes, int) { visit(nodes, given->value); });
     }
 }
 
@@ -36,9 +32,5 @@ void checkHeatStep(const Level& level, const Material& material, double dt) {
                     dt, material.name, longest),
         fmt::format("a delt_max of {:.3g} s, or DoExplicitHeatConduction false", 0.9 * longest));
 }
-
-template void setTemperature<1>(const Patch&, int, NodeView<double>);
-template void setTemperature<2>(const Patch&, int, NodeView<double>);
-template void setTemperature<3>(const Patch&, int, NodeView<double>);
 
 }  // namespace tushar::mpm::solid

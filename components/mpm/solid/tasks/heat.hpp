@@ -2,15 +2,26 @@
 
 #include <Eigen/LU>
 
+#include <vector>
+
 #include "components/mpm/solid/constitutive/tensor_lanes.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/stencil_groups.hpp"
+#include "core/base/function_ref.hpp"
 
 namespace tushar::mpm::solid {
 
-/// Applies the given temperatures of sides (Dirichlet). Other sides are insulated: no heat flows through them.
+/// Calls `visit(nodes, temperature)` for the nodes of a patch on and beyond sides with a given temperature [K]
+/// (Dirichlet). Other sides are insulated: no heat flows through them.
+void forEachGivenTemperature(const Patch& patch, int material, FunctionRef<void(const Box&, double)> visit);
+
+/// Sets a field to the given temperatures of sides.
 template <int D>
-void setTemperature(const Patch& patch, int material, NodeView<double> field);
+void setTemperature(const Patch& patch, int material, NodeView<double> field) {
+  forEachGivenTemperature(patch, material, [&](const Box& nodes, double given) {
+    forEach<D>(nodes, [&](const Index<D>& node) { field[node] = given; });
+  });
+}
 
 /// Views of the particles whose heat is transferred to the nodes.
 template <int D>
@@ -18,14 +29,16 @@ struct HeatToNodes {
   Placed<D> particles;
   ParticleView<const double> mass, particleTemperature;
   NodeView<double> capacity, temperatureNoBC, temperature;
+  std::optional<NodeView<double>> isGiven;  ///< 1 at nodes with a given temperature, if there are any
 
-  static HeatToNodes from(auto& take, int reach, KeptSizes keepsSizes) {
+  static HeatToNodes from(auto& take, int reach, KeptSizes keepsSizes, bool isAnyGiven) {
     return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .mass = take(requiresOld(p::mass, reach)),
             .particleTemperature = take(requiresOld(p::temperature, reach)),
             .capacity = take(computes(g::heatCapacity)),
             .temperatureNoBC = take(computes(g::temperatureNoBC)),
-            .temperature = take(computes(g::temperature))};
+            .temperature = take(computes(g::temperature)),
+            .isGiven = take(when(isAnyGiven, computes(g::hasGivenTemperature)))};
   }
 };
 
@@ -53,6 +66,68 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
     h.temperature[node] = h.temperatureNoBC[node];
   });
   setTemperature<D>(patch, material.index, h.temperature);
+  if (!h.isGiven) return;
+  h.isGiven->fill(0.0);
+  forEachGivenTemperature(patch, material.index, [&](const Box& nodes, double) {
+    forEach<D>(nodes, [&](const Index<D>& node) { (*h.isGiven)[node] = 1; });
+  });
+}
+
+/// Views of the particles near nodes with a given temperature.
+template <int D>
+struct NearGivenTemperature {
+  Placed<D> particles;
+  ParticleView<const double> mass, particleTemperature;
+  NodeView<const double> temperature, isGiven;
+  NodeView<double> change;
+
+  static NearGivenTemperature from(auto& take, const ShapeTraits& shape, KeptSizes keepsSizes) {
+    const int reach = shape.reach, nodes = reach + shape.ghostNodes;
+    return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
+            .mass = take(requiresOld(p::mass, reach)),
+            .particleTemperature = take(requiresOld(p::temperature, reach)),
+            .temperature = take(requiresNew(g::temperature, nodes)),
+            .isGiven = take(requiresNew(g::hasGivenTemperature, nodes)),
+            .change = take(computes(g::givenTemperatureChange))};
+  }
+};
+
+/// Computes the changes of given nodal temperatures with which particles follow the field T(x) = sum_j S_j T_j, which
+/// has the given temperatures G: Delta_i = sum_p S_i m_p (T(x_p) - T_p) / sum_p (S_i m_p sum_{j in G} S_j); 0 at other
+/// nodes. If the particles have this field, nothing changes. (If instead the mean of the particles at the node became
+/// the given temperature, particles would overshoot, by as much as the field varies within a cell.)
+template <class Shape, int D = Shape::dimension>
+void followGivenTemperature(const Patch& patch, const Material&, const Vec3& commonSize,
+                            const NearGivenTemperature<D>& h) {
+  const Box& box = h.change.box();
+  std::vector<double> sums(static_cast<std::size_t>(box.size()), 0.0);
+  const NodeView<double> weight(sums.data(), box);
+  h.change.fill(0.0);
+  forEachStencilGroup<Shape>(patch, h.particles.x.cells(), h.particles, commonSize,
+                             [&]<class Stencils>(int p, int count, const Stencils& stencils) {
+                               const auto temperature = nodeValues(stencils, h.temperature);
+                               const auto given = nodeValues(stencils, h.isGiven);
+                               Lanes field = 0.0, share = 0.0;
+                               stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) {
+                                 field += s * temperature[at];
+                                 share += s * given[at];
+                               });
+                               bool isNear = false;
+                               for (int k = 0; k < count; ++k) isNear |= share[k] > 0;
+                               if (!isNear) return;
+                               const Lanes mass = valuesOf(h.mass, p, count);
+                               const Lanes gap = mass * (field - valuesOf(h.particleTemperature, p, count));
+                               NodeShares<Stencils> gaps, weights;
+                               stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) {
+                                 gaps[at] = s * gap;
+                                 weights[at] = s * (mass * share);
+                               });
+                               addShares(stencils, count, h.change, gaps);
+                               addShares(stencils, count, weight, weights);
+                             });
+  forEach<D>(box, [&](const Index<D>& node) {
+    h.change[node] = h.isGiven[node] > 0 && weight[node] > 0 ? h.change[node] / weight[node] : 0.0;
+  });
 }
 
 /// Views of the particles that conduct heat to the nodes, and receive the heat of loads.
@@ -126,15 +201,17 @@ struct NodalHeating {
   /// Rate due to heat exchange [K/s], if materials in contact exchange heat.
   std::optional<NodeView<const double>> contactRate;
   std::optional<NodeView<const double>> frictionHeat;  ///< heat of friction [J], if friction produces heat
+  std::optional<NodeView<const double>> givenChange;   ///< see followGivenTemperature; if temperatures are given
   NodeView<double> rate;
 
-  static NodalHeating from(auto& take, bool hasContact, bool hasFriction) {
+  static NodalHeating from(auto& take, bool hasContact, bool hasFriction, bool isAnyGiven) {
     return {.capacity = take(requiresNew(g::heatCapacity)),
             .temperatureNoBC = take(requiresNew(g::temperatureNoBC)),
             .temperature = take(requiresNew(g::temperature)),
             .heatRate = take(requiresNew(g::heatRate)),
             .contactRate = take(when(hasContact, requiresNew(g::contactTemperatureRate))),
             .frictionHeat = take(when(hasFriction, requiresNew(g::frictionHeat))),
+            .givenChange = take(when(isAnyGiven, requiresNew(g::givenTemperatureChange))),
             .rate = take(computes(g::temperatureRate))};
   }
 };
@@ -144,9 +221,9 @@ struct NodalHeating {
 /// Method (1987), chapter 8.
 void checkHeatStep(const Level& level, const Material& material, double dt);
 
-/// Computes T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of friction, or the given temperature
-/// on sides of the grid that have one; and dT_i/dt [K/s], the rate of change from T_i to T*_i before boundary
-/// conditions.
+/// Computes dT_i/dt [K/s], the rate of change from the temperature without boundary conditions to T*_i = T_i + (Q_i /
+/// C_i + contact) dt + H_i / C_i with the heat H_i of friction; at nodes with a given temperature, the change that
+/// followGivenTemperature computes, per dt.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, const NodalHeating& h, double dt) {
   checkHeatStep(patch.level(), material, dt);
@@ -156,9 +233,12 @@ void integrateTemperatureRate(const Patch& patch, const Material& material, cons
     if (h.frictionHeat && h.capacity[node] > 0) change += (*h.frictionHeat)[node] / (h.capacity[node] * dt);
     h.rate[node] = h.temperature[node] + change * dt;
   });
-  setTemperature<D>(patch, material.index, h.rate);
   forEach<D>(h.capacity.box(),
              [&](const Index<D>& node) { h.rate[node] = (h.rate[node] - h.temperatureNoBC[node]) / dt; });
+  if (!h.givenChange) return;
+  forEachGivenTemperature(patch, material.index, [&](const Box& nodes, double) {
+    forEach<D>(nodes, [&](const Index<D>& node) { h.rate[node] = (*h.givenChange)[node] / dt; });
+  });
 }
 
 /// Views of the particles whose temperature is updated from the nodes.

@@ -30,9 +30,9 @@ constexpr ShapedTasks<D> shapedTasks() {
 
 template <int D>
 void scheduleNodalTemperature(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
-                              const Vec3& commonSize, KeptSizes keepsSizes) {
+                              const Vec3& commonSize, KeptSizes keepsSizes, bool isAnyGiven) {
   tasks.perMaterial("mpm::interpolateTemperatureToGrid", shaped.interpolateTemperatureToGrid, materials,
-                    with(commonSize), all<HeatToNodes<D>>(shaped.shape.reach, keepsSizes));
+                    with(commonSize), all<HeatToNodes<D>>(shaped.shape.reach, keepsSizes, isAnyGiven));
 }
 
 template <int D>
