@@ -167,11 +167,14 @@ class Halves(SceneTest):
         zones = "".join(f"{x:.3f} 0.4 {z:.3f} {area} 0 1 0 1 0 0 0 1\n" for x in places[0] for z in places[1])
         sides = "".join(f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
                         for side in ("x-", "x+"))
-        text = TEXT.replace("<periodic>[1,0,0]</periodic>", "").replace('<Face side="z-">', sides + '<Face side="z-">', 1)
-        for before, after in (("<lower>[0,0,0]", f"<lower>[{lower[0]},0,{lower[1]}]"),
-                              ("[0.4,0.8,0.1]</upper>", "[0.4,0.8,0.2]</upper>"), ("[4,8,1]", f"[{cells[0]},8,{cells[1]}]"),
-                              ("<min>[0,0.1,0]", f"<min>[{lower[0]},0.1,{lower[1]}]"), ("0.4,0.1]</max>", "0.4,0.2]</max>"),
-                              ("<min>[0,0.4,0]", f"<min>[{lower[0]},0.4,{lower[1]}]"), ("0.7,0.1]</max>", "0.7,0.2]</max>"),
+        text = TEXT.replace("<periodic>[1,0,0]</periodic>", "").replace('<Face side="z-">',
+                                                                        sides + '<Face side="z-">', 1)
+        x, z = lower
+        for before, after in (("<lower>[0,0,0]", f"<lower>[{x},0,{z}]"),
+                              ("[0.4,0.8,0.1]</upper>", "[0.4,0.8,0.2]</upper>"),
+                              ("[4,8,1]", f"[{cells[0]},8,{cells[1]}]"),
+                              ("<min>[0,0.1,0]", f"<min>[{x},0.1,{z}]"), ("0.4,0.1]</max>", "0.4,0.2]</max>"),
+                              ("<min>[0,0.4,0]", f"<min>[{x},0.4,{z}]"), ("0.7,0.1]</max>", "0.7,0.2]</max>"),
                               ("[2,2,1]", "[2,2,2]"), ("<velocity>[0,-0.1,0]", "<velocity>[x,-0.1-x*x,-z]"),
                               ("<velocity>[0,0.1,0]", "<velocity>[-x,0.1+z*z,2*z]"),
                               ("gimp</interpolator>", interpolator)):

@@ -72,7 +72,8 @@ class Burst(SceneTest):
         until 29 November 2026, pressures differed by 1.4e-5 after one step."""
         text = fsi.scene("burst").read_text()
         mirrored = changed(text, ("<lower>[0,0,0]<", "<lower>[-1,0,0]<"), ("<upper>[1,1,0.02]<", "<upper>[0,1,0.02]<"),
-                           ('side="x-"', 'side="x+"'), ("<min>[0,0,0]</min><max>[1,1,1]", "<min>[-1,0,0]</min><max>[0,1,1]"))
+                           ('side="x-"', 'side="x+"'),
+                           ("<min>[0,0,0]</min><max>[1,1,1]", "<min>[-1,0,0]</min><max>[0,1,1]"))
         one, other = self.pressures(text, 1), self.pressures(mirrored, -1)
         self.assertEqual(one.keys(), other.keys())
         self.assertLess(max(abs(p - other[place]) for place, p in one.items()), 1e-11 * max(one.values()))
