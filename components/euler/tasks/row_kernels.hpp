@@ -96,23 +96,27 @@ void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointe
 }
 
 /// Changes primitive values by a change of the conserved ones. Lowers `least` to the smallest density and p + p_inf
-/// found (for a gas with its own law, its heat), and below 0 if one of several gases has a negative amount.
+/// found (for a gas with its own law, its heat), and below 0 if one of several gases has a negative amount. Negative
+/// traces, below round-off of the whole, count as none and become 0: they must not change how the whole moves.
 template <int D, class G>
 void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, const Pointers<D, kGases<G>>& values,
                double* least) {
-  // In place of volume fractions there may be numbers of any sign.
-  const double offset = areBlended(gas) ? std::numeric_limits<double>::infinity() : 0.0;
+  constexpr double trace = 1e-14;
+  const bool haveShares = !areBlended(gas);  // in place of volume fractions there may be numbers of any sign
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     State<D, kGases<G>> u = conserved<D>(gas, load<D>(values, i));
     for (std::size_t k = 0; k < u.size(); ++k) u[k] += change[k][i];
-    const State<D, kGases<G>> w = primitive<D>(gas, u);
+    State<D, kGases<G>> w = primitive<D>(gas, u);
     const double stiff = lawIn<D>(gas, w).heat(w[kDensity], w[kPressure<D>]);
     double lower = w[kDensity] < stiff ? w[kDensity] : stiff;
     if constexpr (constexpr int gases = kGases<G>; gases > 1)
       for (int k = 0; k < gases; ++k) {
-        lower = w[kMass<D>(k)] < 0 ? -1.0 : lower;
-        lower = w[kShare<D, gases>(k)] + offset < 0 ? -1.0 : lower;
+        double &mass = w[kMass<D>(k)], &share = w[kShare<D, gases>(k)];
+        lower = mass < -trace * w[kDensity] ? -1.0 : lower;
+        lower = haveShares && share < -trace ? -1.0 : lower;
+        mass = mass < 0 ? 0.0 : mass;
+        share = haveShares && share < 0 ? 0.0 : share;
       }
     least[i] = lower < least[i] ? lower : least[i];
     store<D>(values, i, w);
