@@ -67,12 +67,21 @@ class Outputs(WithArchives):
         for wrong, sentence in ((lambda: archive[-1]["p.densty"], density),
                                 (lambda: archive.globals["KinetcEnergy"], r"did you mean 'KineticEnergy'"),
                                 (lambda: archive["p.x"], r"outputs are selected by number: archive\[-1\]\['p.x'\]"),
+                                (lambda: archive[1.5], r"by whole numbers, found 1.5; archive.at\(1.5\)"),
                                 (lambda: archive[7], "no output 7: .* has 3, 0 to 2"),
                                 (lambda: archive.report, "there is no report .* sus --json report.json"),
                                 (lambda: archive.particles(), 'add <save label="p.particleID"/>'),
                                 (lambda: archive[-1].particles("gass"), r"no material 'gass' \(did you mean 'gas'")):
             with self.assertRaisesRegex(tushar.ArchiveError, sentence):
                 wrong()
+
+    def test_of_an_unreadable_log_has_no_runs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sod = fake_uda.make_sod(folder)
+            for text in ("3", "[null]", '{"runs": 3}', "{"):
+                with open(os.path.join(sod, "run.json"), "w", encoding="utf-8") as file:
+                    file.write(text)
+                self.assertEqual(tushar.open(sod).runs, [])
 
     def test_says_which_file_cannot_be_read(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -185,6 +185,13 @@ auto diffusingGas(const Level& level, const Settings& settings, const GasInCells
   };
 }
 
+/// The object that computes the diffusive fluxes of a patch with varying coefficients, bounded in thin gas; the rules
+/// must outlive it.
+template <int D>
+euler::Diffuser<D> boundedDiffuser(const Patch& patch, const Settings& settings, const euler::GhostRules<D>& rules) {
+  return {patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky, euler::Diffusivities::bounded};
+}
+
 /// Adds the changes due to viscosity and conduction in a step, like addDiffusion, for varying coefficients or several
 /// gases. The flux through a face uses the means of the coefficients of the cells on both sides.
 template <int D>
@@ -194,8 +201,7 @@ void addVaryingDiffusion(const Patch& patch, const Settings& settings, const Gas
   const Level& level = patch.level();
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, settings.gas.gas, time);
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
-  euler::Diffuser<D> diffuser(level, patch.cells(), rules, settings.diffusion.alone.smagorinsky,
-                              euler::Diffusivities::bounded);
+  euler::Diffuser<D> diffuser = boundedDiffuser<D>(patch, settings, rules);
   const auto cellAt = diffusingGas<D>(level, settings, cells, diffusivityAtStart);
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     diffuser.hold(block, cellAt);
@@ -246,8 +252,7 @@ template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double time,
                            double diffusivityAtStart, Minimum& dt) {
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), settings.gas.gas, time);
-  euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky,
-                              euler::Diffusivities::bounded);
+  euler::Diffuser<D> diffuser = boundedDiffuser<D>(patch, settings, rules);
   const auto cellAt = diffusingGas<D>(patch.level(), settings, cells, diffusivityAtStart);
   double greatest = 0;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {

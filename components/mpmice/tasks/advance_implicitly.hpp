@@ -145,8 +145,7 @@ template <int D>
 void limitVaryingImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double time,
                               double diffusivityAtStart, Minimum& dt) {
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), settings.gas.gas, time);
-  euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky,
-                              euler::Diffusivities::bounded);
+  euler::Diffuser<D> diffuser = boundedDiffuser<D>(patch, settings, rules);
   euler::Rows<D> rates =
       euler::ratesOfDiffusion<D>(patch, diffuser, diffusingGas<D>(patch.level(), settings, cells, diffusivityAtStart));
   limitImplicitStepWith<D>(patch, settings, cells, dt, [&](const Index<D>& cell, double, double, int d) {

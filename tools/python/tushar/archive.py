@@ -190,6 +190,9 @@ class Archive(Sequence[Snapshot]):
             return [self[k] for k in range(*index.indices(len(self)))]
         if isinstance(index, str):
             raise ArchiveError(f"outputs are selected by number: archive[-1]['{index}'], or archive.globals['{index}']")
+        if not isinstance(index, (int, np.integer)):
+            raise ArchiveError(f"outputs are selected by whole numbers, found {index!r}; archive.at({index!r}) finds the "
+                               "output nearest to a time")
         count = len(self)
         if not -count <= index < count:
             if not count:
@@ -237,9 +240,9 @@ class Archive(Sequence[Snapshot]):
         try:
             with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
                 found: List[Dict[str, Any]] = json.load(file)["runs"]
-        except (OSError, ValueError, KeyError):
+        except (OSError, ValueError, KeyError, TypeError):
             return []
-        return found
+        return found if isinstance(found, list) else []
 
     @property
     def materials(self) -> List[str]:
