@@ -191,8 +191,8 @@ class Archive(Sequence[Snapshot]):
         if isinstance(index, str):
             raise ArchiveError(f"outputs are selected by number: archive[-1]['{index}'], or archive.globals['{index}']")
         if not isinstance(index, (int, np.integer)):
-            raise ArchiveError(f"outputs are selected by whole numbers, found {index!r}; archive.at({index!r}) finds the "
-                               "output nearest to a time")
+            raise ArchiveError(f"outputs are selected by whole numbers, found {index!r}; archive.at({index!r}) finds "
+                               "the output nearest to a time")
         count = len(self)
         if not -count <= index < count:
             if not count:
