@@ -7,8 +7,8 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from solids import SceneTest, columns, globals_of, last_state
-from sus import ROOT
+from solids import RefusedSceneTest, SceneTest, columns, globals_of, last_state
+from sus import ROOT, run
 from uda import FolderTest
 
 DISC, BLOCK, SLOPE = (f"ups/solid/{name}.ups" for name in ("driven_disc", "pushed_block", "sliding_block"))
@@ -84,6 +84,24 @@ class Faces(SceneTest):
         lag = time / len(lines) / 2  # the load of a step is that of its start
         # Faces grow by the strain of the block, 1e-4.
         self.assertAlmostEqual(momentum / (8000 * .0625 * (time - .01 - lag)), 1, delta=1e-3)
+
+
+class Messages(RefusedSceneTest):
+    def test_name_the_lines_of_a_file_that_are_wrong(self):
+        """A word used to end the motion there, without a message."""
+        text = (ROOT / DISC).read_text()
+        lines = (ROOT / "ups/solid/driven_disc.txt").read_text().splitlines()
+        self.file = "\n".join([lines[0], "", "0.1 fast 0 0", *lines[1:], "5 6"])
+        done = run(self.scene(text))
+        self.assertEqual(done.code, 3)
+        self.assertIn("driven_disc.txt:3:0: found 'fast', expected a number", done.err)
+        self.assertIn(f"driven_disc.txt:{len(lines) + 3}:0: found 2 numbers, expected 10: time, velocity, centre and "
+                      "angular velocity", done.err)
+
+    def scene(self, text):
+        path = super().scene(text)
+        (path.parent / "driven_disc.txt").write_text(self.file)
+        return path
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "components/mpm/solid/number_lines.hpp"
 #include "core/input/refuse.hpp"
 #include "core/input/schema.hpp"
 
@@ -213,12 +214,19 @@ std::vector<double> readTable(const Element& tag, const std::string& path, std::
     return {};
   }
   std::vector<double> numbers;
-  for (double number; file >> number;) numbers.push_back(number);
-  if (columns > 4 && (numbers.size() % columns != 0 || !file.eof()))
-    diagnostics.error(tag,
-                      fmt::format("filename: '{}' needs {} numbers per line with <include_rotation>: `time vx vy vz "
-                                  "cx cy cz wx wy wz`",
-                                  path, columns));
+  std::string line;
+  for (int at = 1; std::getline(file, line); ++at) {
+    const Location where{path, at, 0};
+    const auto read = numbersInLine(line, where, diagnostics);
+    if (!read || read->empty()) continue;
+    numbers.insert(numbers.end(), read->begin(), read->end());
+    if (read->size() == columns) continue;
+    diagnostics.error(
+        where, {},
+        columns == 4
+            ? fmt::format("found {} numbers, expected 4: time, velocity", read->size())
+            : fmt::format("found {} numbers, expected 10: time, velocity, centre and angular velocity", read->size()));
+  }
   return numbers;
 }
 
