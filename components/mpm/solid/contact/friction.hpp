@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/contact/meeting_bodies.hpp"
 #include "components/mpm/solid/labels.hpp"
 
 namespace tushar::mpm::solid {
@@ -32,8 +33,6 @@ FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu);
 /// The surfaces of all materials, and the frictional heat [J] at their nodes, if the scene computes it.
 using Surfaces = std::vector<NodeView<const SurfaceRecord>>;
 using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
-/// The rows of nodes that the particles of each material touch.
-using RowsOfNodes = std::vector<const data::TouchedRows*>;
 
 /// Applies the impulses of friction to all participating materials, where their volumes and distance satisfy the
 /// conditions of the contact. A change that would strain a cell by more than 1/2 is reduced to that limit. Adds the

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "components/mpm/solid/contact/friction.hpp"
+#include "components/mpm/solid/contact/meeting_bodies.hpp"
+#include "components/mpm/solid/transfer/node_windows.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -78,10 +82,29 @@ Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda
   return solved<D + 1>(matrix, right);
 }
 
-/// Index of the material to which the plane at a node belongs; -1 if there is no plane.
+/// Where bodies meet.
 template <int D>
-int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
-  for (std::size_t m = 0; m < planes.size(); ++m)
+MeetingBodies<D> meetingBodies(const Records& records, const SeparatingPlanes<D>& planes) {
+  const Box& nodes = records.front().box();
+  const data::TouchedRows all = data::TouchedRows::all(nodes);
+  RowsOfNodes rows;
+  for (const auto& plane : planes) rows.push_back(plane.x ? &touchedRows<D>(*plane.x, plane.ghostNodes) : &all);
+  std::vector<std::size_t> bodies(records.size());
+  std::iota(bodies.begin(), bodies.end(), std::size_t{0});
+  return {nodes, bodies, rows, records};
+}
+
+/// For each of `count` materials, whether it takes part in a contact.
+std::vector<bool> takingPart(const Contact& contact, std::size_t count) {
+  std::vector<bool> takesPart(count, false);
+  for (const std::size_t m : contact.bodies(count)) takesPart[m] = true;
+  return takesPart;
+}
+
+/// Index of the material, of those present at a node, to which the plane there belongs; -1 if there is no plane.
+template <int D>
+int foremost(const SeparatingPlanes<D>& planes, std::span<const std::size_t> bodies, const Index<D>& node) {
+  for (const std::size_t m : bodies)
     if (!(*planes[m].normal)[node].isZero()) return static_cast<int>(m);
   return -1;
 }
@@ -122,12 +145,12 @@ template <int D, class Visit>
 void forEachTouch(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                   const SeparatingPlanes<D>& planes, Visit&& visit) {
   const auto motion = contact.prescribedMotion(time);
-  forEach<D>(records.front().box(), [&](const Index<D>& node) {
-    const int first = foremost<D>(planes, node);
+  meetingBodies<D>(records, planes).forEachNode([&](const Index<D>& node, std::span<const std::size_t> bodies) {
+    const int first = foremost<D>(planes, bodies, node);
     if (first < 0 || isExcluded<D>(contact, records, node)) return;
     const Vec<D> moving = masterVelocity<D>(patch, contact, motion, dt, records, node);
     const Vec<D> normal = -(*planes[first].normal)[node];
-    for (std::size_t m = 0; m < records.size(); ++m) {
+    for (const std::size_t m : bodies) {
       if (!meetsMaster<D>(patch.level(), contact, records, planes, first, m, node)) continue;
       const Touch<D> touch{normal, lanes<D>(records[m][node], lane::velocity) - moving, false};
       if (touch.velocity.dot(normal) > 0) visit(node, m, touch);
@@ -160,21 +183,22 @@ Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double w
 template <int D>
 void slideAlongPlanes(const Level& level, const Contact& contact, const Records& records,
                       const SeparatingPlanes<D>& planes) {
-  forEach<D>(records.front().box(), [&](const Index<D>& node) {
-    const int first = foremost<D>(planes, node);
+  const std::vector<bool> takesPart = takingPart(contact, records.size());
+  meetingBodies<D>(records, planes).forEachNode([&](const Index<D>& node, std::span<const std::size_t> bodies) {
+    const int first = foremost<D>(planes, bodies, node);
     if (first < 0) return;
     Vec<D> momentum = Vec<D>::Zero();
     double mass = 0;
-    for (std::size_t m = 0; m < records.size(); ++m) {
-      if (!contact.concerns(static_cast<int>(m))) continue;
+    for (const std::size_t m : bodies) {
+      if (!takesPart[m]) continue;
       momentum += records[m][node][lane::mass] * lanes<D>(records[m][node], lane::velocity);
       mass += records[m][node][lane::mass];
     }
     const Vec<D> normal = -(*planes[first].normal)[node];
     NodeRecord& body = records[first][node];
-    for (std::size_t m = 0; m < records.size(); ++m) {
+    for (const std::size_t m : bodies) {
       NodeRecord& record = records[m][node];
-      if (static_cast<int>(m) == first || !contact.concerns(static_cast<int>(m))) continue;
+      if (static_cast<int>(m) == first || !takesPart[m]) continue;
       if (record[lane::mass] <= leastMass || !overlaps<D>(level, planes, first, m, node)) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity);
       const Touch<D> touch{normal, v - momentum / mass, false};

@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/labels.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
 
 // Contact with friction along the plane that separates the particles of two bodies, found by logistic regression;
 // Nairn, Hammerquist & Smith, Comput. Methods Appl. Mech. Engrg. 362 (2020) 112859.
@@ -32,11 +33,17 @@ struct SeparatingPlane {
   /// the plane belongs to the body, otherwise that of the nearest particle.
   std::optional<NodeView<const double>> prominence;
   std::optional<NodeView<const double>> color;  ///< mass-weighted mean of its p.color
+  /// The particles, which touch the nodes up to `ghostNodes` layers around their cells; without them, any node counts.
+  std::optional<ParticleView<const Vec<D>>> x = std::nullopt;
+  int ghostNodes = 0;
 
-  static SeparatingPlane from(auto& take, bool hasPlanes, bool hasColor) {
+  /// `shapes` are the shape functions of the particles.
+  static SeparatingPlane from(auto& take, bool hasPlanes, bool hasColor, const ShapeTraits& shapes) {
     return {.normal = take(when(hasPlanes, requiresNew(g::separatingNormal<D>))),
             .prominence = take(when(hasPlanes, requiresNew(g::prominence))),
-            .color = take(when(hasColor, requiresNew(g::color)))};
+            .color = take(when(hasColor, requiresNew(g::color))),
+            .x = take(when(hasPlanes, requiresOld(p::x<D>, shapes.reach))),
+            .ghostNodes = shapes.ghostNodes};
   }
 };
 /// The planes of all materials.

@@ -138,7 +138,7 @@ void SolidsOf<D>::scheduleContact(TaskList& tasks, const std::string& name, Mome
                                   const NodeLabel<NodeRecord>& record) const {
   tasks.acrossMaterials(name, exchangeMomentum<D>, problem_.materials, with(problem_.contacts), with(moment),
                         startTime(), requiresOld(delT), modifies(record),
-                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor()));
+                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor(), shapes_));
 }
 
 template <int D>
@@ -147,7 +147,7 @@ void SolidsOf<D>::scheduleContactAtEnd(TaskList& tasks) const {
   if (problem_.contacts.empty() && !transmitsForce()) return;
   tasks.acrossMaterials("mpm::exMomIntegrated", exchangeMomentumAtEnd<D>, problem_.materials, with(problem_.contacts),
                         with(acceleration), startTime(), requiresOld(delT), modifies(g::record),
-                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor()), computes(total::rigidReactionForce),
+                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor(), shapes_), computes(total::rigidReactionForce),
                         when(transmitsForce(), computes(g::transmittedForce<D>)));
 }
 

@@ -71,9 +71,9 @@ class SolidsOf : public Solids {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(),
                        [](const Material& material) { return material.transmitsForce; });
   }
-  /// Whether untouched nodes must be 0, because tasks other than those of the solids read them.
+  /// Whether untouched nodes must be 0, because contacts or tasks other than those of the solids read them.
   bool clearsAllNodes() const {
-    return !problem_.contacts.empty() || problem_.method.loadsAtCorners || problem_.surroundings || hasZones();
+    return anyContact([](const Contact& contact) { return contact.type != Contact::Type::planeFriction; }) || problem_.method.loadsAtCorners || problem_.surroundings || hasZones();
   }
   bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }
   KeptSizes keepsSizes() const {

@@ -159,6 +159,8 @@ TEST(SpecifiedFriction, FeelsTheForceOfThoseThatItStops) {
   EXPECT_NEAR(reaction.y.total(), 20, 1e-12);
 }
 
+constexpr std::array<std::size_t, 2> both{0, 1};
+
 TEST(Precedence, IsOfTheFirstBodyIfAnotherIsAsHeavy) {
   for (const double more : {-1e-15, 1e-15}) {
     TwoBodies bodies;
@@ -166,7 +168,7 @@ TEST(Precedence, IsOfTheFirstBodyIfAnotherIsAsHeavy) {
     std::vector<NodeView<const NodeRecord>> records;
     for (const auto& one : bodies.records) records.emplace_back(one.data(), bodies.nodes);
     const std::vector<Material> materials(2);
-    EXPECT_EQ((Precedence(materials, {}).leader<2>(records, {0, 1}, Index<2>{{1, 1}})), 0) << more;
+    EXPECT_EQ((Precedence(materials, {}).leader<2>(records, both, Index<2>{{1, 1}})), 0) << more;
   }
 }
 
@@ -177,7 +179,7 @@ TEST(Precedence, IsOfTheHeaviestUnlessOneIsRigidOrMayNot) {
   for (const auto& one : bodies.records) records.emplace_back(one.data(), bodies.nodes);
   const Index<2> node{{1, 1}};
   const auto leader = [&](const std::vector<Contact>& contacts = {}) {
-    return Precedence(materials, contacts).leader<2>(records, {0, 1}, node);
+    return Precedence(materials, contacts).leader<2>(records, both, node);
   };
   EXPECT_EQ(leader(), 0);
   materials[1].isRigid = true;
@@ -188,8 +190,8 @@ TEST(Precedence, IsOfTheHeaviestUnlessOneIsRigidOrMayNot) {
   bodies.contact.type = Contact::Type::specifiedFriction;
   bodies.contact.master = 1;
   EXPECT_EQ(leader({bodies.contact}), 1) << "masters are rigid";
-  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, {0, 1}, Index<2>{{0, 0}})), -1);
-  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, {0}, node)), -1) << "the other has no particles";
+  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, both, Index<2>{{0, 0}})), -1);
+  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, std::span(both).first(1), node)), -1) << "the other has no particles";
 }
 
 }  // namespace

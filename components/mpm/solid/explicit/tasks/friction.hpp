@@ -2,10 +2,10 @@
 
 #include <Eigen/LU>
 
-#include <cstdint>
 #include <vector>
 
 #include "components/mpm/solid/contact/friction.hpp"
+#include "components/mpm/solid/contact/meeting_bodies.hpp"
 #include "components/mpm/solid/contact/present.hpp"
 #include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/transfer/cell_run.hpp"
@@ -34,59 +34,6 @@ struct SurfaceSources {
             .particleStress = take(when(keeps.stress, requiresOld(p::stress, reach))),
             .surface = take(computes(g::surfaceRecord))};
   }
-};
-
-/// The nodes of a patch at which more than one body has mass.
-template <int D>
-class MeetingPlaces {
- public:
-  explicit MeetingPlaces(const Box& nodes) : box_(nodes), bodies_(nodes.size(), 0) {}
-
-  /// Counts a body at the nodes of its rows where it has mass.
-  void add(const data::TouchedRows& rows, const NodeView<const NodeRecord>& record) {
-    rows.forEachRow(box_, [&](Index3 node, int end) {
-      const NodeRecord* at = record.values() + record.stored().offset(node);
-      std::uint16_t* count = bodies_.data() + box_.offset(node);
-      for (; node[0] < end; ++node[0], ++at, ++count)
-        *count = static_cast<std::uint16_t>(*count + ((*at)[lane::mass] > 0));
-    });
-  }
-  /// Whether bodies meet at a node of a cell, or of the `layers` around it.
-  bool areNear(const Index<D>& cell, int layers) const {
-    Box near;
-    for (int d = 0; d < 3; ++d) {
-      near.lower[d] = d < D ? std::max(cell[d] - layers, box_.lower[d]) : box_.lower[d];
-      near.upper[d] = d < D ? std::min(cell[d] + 2 + layers, box_.upper[d]) : box_.upper[d];
-    }
-    bool any = false;
-    if (!near.empty())
-      forEach<3>(near.rowStarts(), [&](const Index3& row) {
-        const std::uint16_t* count = bodies_.data() + box_.offset(row);
-        for (int k = 0; k < near.extent(0); ++k) any |= count[k] > 1;
-      });
-    return any;
-  }
-  /// Calls `visit(node)` for each of these nodes, given by three indices.
-  template <class Visit>
-  void forEachPlace(Visit&& visit) const {
-    const std::uint16_t* count = bodies_.data();
-    forEach<3>(box_, [&](const Index3& node) {
-      if (*count++ > 1) visit(node);
-    });
-  }
-  /// Calls `visit(node)` for each other node of the rows.
-  template <class Visit>
-  void forEachOther(const data::TouchedRows& rows, Visit&& visit) const {
-    rows.forEachRow(box_, [&](Index3 node, int end) {
-      const std::uint16_t* count = bodies_.data() + box_.offset(node);
-      for (; node[0] < end; ++node[0])
-        if (*count++ <= 1) visit(node);
-    });
-  }
-
- private:
-  Box box_;
-  std::vector<std::uint16_t> bodies_;  ///< number of bodies at each node
 };
 
 /// Extends a body beyond symmetry planes: no gradient points through the plane, and the volume counts twice.

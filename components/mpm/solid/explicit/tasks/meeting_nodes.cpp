@@ -6,13 +6,13 @@ namespace tushar::mpm::solid {
 
 template <int D>
 MeetingNodes<D>::MeetingNodes(const Box& nodes, const std::vector<Material>& materials,
-                              const std::vector<Contact>& contacts,
-                              const std::vector<NodeView<const NodeRecord>>& records)
+                              const std::vector<Contact>& contacts, const std::vector<std::size_t>& present,
+                              const RowsOfNodes& rows, const std::vector<NodeView<const NodeRecord>>& records)
     : box(nodes), number(nodes.size(), -1) {
   const Precedence precedence(materials, contacts);
-  const std::vector<std::size_t> present = presentIn(records);
-  forEach<D>(box, [&](const Index<D>& at) {
-    const int first = precedence.leader<D>(records, present, at);
+  const MeetingBodies<D> meeting(nodes, present, rows, records);
+  meeting.forEachNode([&](const Index<D>& at, std::span<const std::size_t> bodies) {
+    const int first = precedence.leader<D>(records, bodies, at);
     if (first < 0) return;
     number[place(at)] = static_cast<int>(node.size());
     node.push_back(at);

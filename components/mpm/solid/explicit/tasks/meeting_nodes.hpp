@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "components/mpm/solid/contact/friction.hpp"
+#include "components/mpm/solid/contact/meeting_bodies.hpp"
 #include "components/mpm/solid/contact/plane_friction.hpp"
 #include "components/mpm/solid/contact/present.hpp"
 #include "components/mpm/solid/material.hpp"
@@ -27,9 +28,9 @@ struct Precedence {
   }
 
   /// The index of the material with the most mass of those that meet at a node, the first one if others have as much,
-  /// or of the rigid one; -1 if fewer than two meet. `present` are the indices of the materials that have records.
+  /// or of the rigid one; -1 if fewer than two meet. `present` are the indices of the materials that have mass there.
   template <int D>
-  int leader(const std::vector<NodeView<const NodeRecord>>& records, const std::vector<std::size_t>& present,
+  int leader(const std::vector<NodeView<const NodeRecord>>& records, std::span<const std::size_t> present,
              const Index<D>& node) const {
     double total = 0, most = 0, mostOfRigid = 1e-90;
     for (const std::size_t m : present) total += records[m][node][lane::mass];
@@ -61,7 +62,9 @@ struct MeetingNodes {
   std::vector<int> leader;  ///< index of the material to which the plane belongs
   std::vector<std::vector<SidedParticle<D>>> particles;
 
+  /// `present` are the indices of the materials that have records.
   MeetingNodes(const Box& nodes, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
+               const std::vector<std::size_t>& present, const RowsOfNodes& rows,
                const std::vector<NodeView<const NodeRecord>>& records);
   /// The index of a node in the lists; -1 if no bodies meet there.
   int operator[](const Index<D>& at) const { return box.contains(at) ? number[place(at)] : -1; }

@@ -89,7 +89,9 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
                     const std::vector<PlaneSources<D>>& of) {
   const std::vector<std::size_t> present = presentIn(records);
   if (present.empty()) return;
-  MeetingNodes<D> nodes(of[present.front()].normal.box(), materials, contacts, records);
+  RowsOfNodes rows;
+  for (const auto& material : of) rows.push_back(&touchedRows<D>(material.particles.x, Shape::ghostNodes));
+  MeetingNodes<D> nodes(of[present.front()].normal.box(), materials, contacts, present, rows, records);
   for (const std::size_t m : present) {
     of[m].normal.fill(Vec<D>::Zero());
     gatherParticles<Shape>(patch, commonSize, of[m], static_cast<int>(m), nodes);
