@@ -4,6 +4,22 @@
 
 namespace tushar::mpmice {
 
+/// The sum of a scalar, times mass, over several cells, and of their free volumes.
+struct ScalarPool {
+  double volume, amount;
+
+  ScalarPool& operator+=(const ScalarPool& other) {
+    volume += other.volume;
+    amount += other.amount;
+    return *this;
+  }
+  ScalarPool& operator*=(double factor) {
+    volume *= factor;
+    amount *= factor;
+    return *this;
+  }
+};
+
 /// Computes a scalar after a step, times the mass per cell volume. Where small cells are merged with neighbours, this
 /// product is distributed in the same way as the mass. `density` is the density after merging.
 template <int D>
@@ -14,13 +30,10 @@ void shareScalar(const Patch& patch, const Settings& settings, const Unshared<D>
   SmallCells<D> small(patch.level(), settings.thinWalls, state);
   small.findChoices(near, patch.level().clipCells(patch.cells().grown(2, D)));
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    const Index<D> centre = small.targetOf(cell);
-    double volume = 0, sum = 0;
-    const bool shares = small.forEachInPool(cell, centre, [&](const Index<D>& at) {
-      volume += state.free[at];
-      sum += unshared[at];
-    });
-    if (shares && volume > 0) held[cell] = sum * (state.free[cell] / volume);
+    const auto contentOf = [&](const Index<D>& at, double part) {
+      return ScalarPool{part * state.free[at], part * unshared[at]};
+    };
+    if (const auto [content, shares] = small.merged(cell, contentOf); shares) held[cell] = content.amount;
     if (density[cell] == 0) held[cell] = 0;
   });
 }

@@ -147,8 +147,8 @@ void SolidsOf<D>::scheduleContactAtEnd(TaskList& tasks) const {
   if (problem_.contacts.empty() && !transmitsForce()) return;
   tasks.acrossMaterials("mpm::exMomIntegrated", exchangeMomentumAtEnd<D>, problem_.materials, with(problem_.contacts),
                         with(acceleration), startTime(), requiresOld(delT), modifies(g::record),
-                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor(), shapes_), computes(total::rigidReactionForce),
-                        when(transmitsForce(), computes(g::transmittedForce<D>)));
+                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor(), shapes_),
+                        computes(total::rigidReactionForce), when(transmitsForce(), computes(g::transmittedForce<D>)));
 }
 
 /// Adds the tasks that follow the forces and stresses of a step.

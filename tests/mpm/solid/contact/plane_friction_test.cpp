@@ -191,7 +191,8 @@ TEST(Precedence, IsOfTheHeaviestUnlessOneIsRigidOrMayNot) {
   bodies.contact.master = 1;
   EXPECT_EQ(leader({bodies.contact}), 1) << "masters are rigid";
   EXPECT_EQ((Precedence(materials, {}).leader<2>(records, both, Index<2>{{0, 0}})), -1);
-  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, std::span(both).first(1), node)), -1) << "the other has no particles";
+  EXPECT_EQ((Precedence(materials, {}).leader<2>(records, std::span(both).first(1), node)), -1)
+      << "the other has no particles";
 }
 
 }  // namespace
