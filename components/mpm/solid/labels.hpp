@@ -96,6 +96,8 @@ inline constexpr NodeLabel<double> hasGivenTemperature{"g.hasGivenTemperature", 
                                                        "1 where a side of the grid gives the temperature, 0 elsewhere"};
 inline constexpr NodeLabel<double> givenTemperatureChange{
     "g.givenTemperatureChange", "K", "change with which particles follow a given temperature in the step"};
+inline constexpr NodeLabel<double> subgridTemperatureChange{
+    "g.subgridTemperatureChange", "K", "change of the temperature by conduction within cells in the step"};
 inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that reaches the node by conduction"};
 inline constexpr NodeLabel<double> contactTemperatureRate{
     "g.contactTemperatureRate", "K/s", "rate of change of the temperature due to contact with other materials"};

@@ -31,6 +31,7 @@ struct ExplicitTasks {
   decltype(&solid::computeSSPlusVp<LinearShape<D>>) computeSSPlusVp;
   decltype(&solid::applyXpic<LinearShape<D>>) applyXpic;
   decltype(&solid::computeInternalHeatRate<LinearShape<D>>) computeInternalHeatRate;
+  decltype(&solid::computeSubgridHeat<LinearShape<D>>) computeSubgridHeat;
   decltype(&solid::followGivenTemperature<LinearShape<D>>) followGivenTemperature;
   decltype(&solid::addAffineVelocity<LinearShape<D>>) addAffineVelocity =
       nullptr;  ///< null if it is not available with these shape functions
@@ -56,6 +57,7 @@ constexpr ExplicitTasks<D> explicitTasks() {
                          .computeSSPlusVp = computeSSPlusVp<Shape>,
                          .applyXpic = applyXpic<Shape>,
                          .computeInternalHeatRate = computeInternalHeatRate<Shape>,
+                         .computeSubgridHeat = computeSubgridHeat<Shape>,
                          .followGivenTemperature = followGivenTemperature<Shape>};
   if constexpr (!Shape::deforms && !Shape::axisymmetric) {
     tasks.addAffineVelocity = addAffineVelocity<Shape>;

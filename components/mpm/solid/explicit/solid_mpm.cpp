@@ -260,8 +260,10 @@ void SolidMpm<D>::scheduleHeat(TaskList& tasks) const {
   scheduleHeatFlux(tasks);
   tasks.perMaterial("mpm::computeInternalHeatRate", bodies_->computeInternalHeatRate, materials, with(commonSize),
                     all<HeatFlow<D>>(shapes_, keepsSizes(), problem_.start.loads.hasHeat()));
+  tasks.perMaterial("mpm::computeSubgridHeat", bodies_->computeSubgridHeat, materials, with(commonSize),
+                    all<SubgridHeat<D>>(shapes_, keepsSizes()), requiresOld(delT));
   scheduleTemperatureRate(tasks);
-  scheduleTemperatureUpdate(tasks, bodies_->shaped, materials, commonSize, keepsSizes());
+  scheduleTemperatureUpdate(tasks, bodies_->shaped, materials, commonSize, keepsSizes(), true);
 }
 
 template class SolidMpm<1>;

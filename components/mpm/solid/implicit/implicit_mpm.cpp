@@ -106,7 +106,7 @@ void ImplicitMpm<D>::scheduleHeat(TaskList& tasks) const {
     tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<D>, problem_.materials, togetherOnRanks(),
                                  with(setup()), requiresOld(delT), all<HeatedParticles<D>>(),
                                  computes(g::temperatureRate));
-    scheduleTemperatureUpdate(tasks, shapes_->shaped, problem_.materials, commonSize, keepsSizes);
+    scheduleTemperatureUpdate(tasks, shapes_->shaped, problem_.materials, commonSize, keepsSizes, false);
   }
   if (heats_) scheduleHeatOfWork(tasks, problem_.materials, how_.conductsHeat);
 }

@@ -6,6 +6,7 @@
 
 #include "components/mpm/solid/constitutive/tensor_lanes.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/tasks/subgrid_heat.hpp"
 #include "components/mpm/solid/transfer/stencil_groups.hpp"
 #include "core/base/function_ref.hpp"
 
@@ -202,6 +203,7 @@ struct NodalHeating {
   std::optional<NodeView<const double>> contactRate;
   std::optional<NodeView<const double>> frictionHeat;  ///< heat of friction [J], if friction produces heat
   std::optional<NodeView<const double>> givenChange;   ///< see followGivenTemperature; if temperatures are given
+  NodeView<const double> subgridChange;                ///< see computeSubgridHeat
   NodeView<double> rate;
 
   static NodalHeating from(auto& take, bool hasContact, bool hasFriction, bool isAnyGiven) {
@@ -212,6 +214,7 @@ struct NodalHeating {
             .contactRate = take(when(hasContact, requiresNew(g::contactTemperatureRate))),
             .frictionHeat = take(when(hasFriction, requiresNew(g::frictionHeat))),
             .givenChange = take(when(isAnyGiven, requiresNew(g::givenTemperatureChange))),
+            .subgridChange = take(requiresNew(g::subgridTemperatureChange)),
             .rate = take(computes(g::temperatureRate))};
   }
 };
@@ -222,8 +225,8 @@ struct NodalHeating {
 void checkHeatStep(const Level& level, const Material& material, double dt);
 
 /// Computes dT_i/dt [K/s], the rate of change from the temperature without boundary conditions to T*_i = T_i + (Q_i /
-/// C_i + contact) dt + H_i / C_i with the heat H_i of friction; at nodes with a given temperature, the change that
-/// followGivenTemperature computes, per dt.
+/// C_i + contact) dt + H_i / C_i with the heat H_i of friction, minus the change that conduction within cells gives the
+/// particles; at nodes with a given temperature, the change that followGivenTemperature computes, per dt.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, const NodalHeating& h, double dt) {
   checkHeatStep(patch.level(), material, dt);
@@ -233,8 +236,9 @@ void integrateTemperatureRate(const Patch& patch, const Material& material, cons
     if (h.frictionHeat && h.capacity[node] > 0) change += (*h.frictionHeat)[node] / (h.capacity[node] * dt);
     h.rate[node] = h.temperature[node] + change * dt;
   });
-  forEach<D>(h.capacity.box(),
-             [&](const Index<D>& node) { h.rate[node] = (h.rate[node] - h.temperatureNoBC[node]) / dt; });
+  forEach<D>(h.capacity.box(), [&](const Index<D>& node) {
+    h.rate[node] = (h.rate[node] - h.temperatureNoBC[node] - h.subgridChange[node]) / dt;
+  });
   if (!h.givenChange) return;
   forEachGivenTemperature(patch, material.index, [&](const Box& nodes, double) {
     forEach<D>(nodes, [&](const Index<D>& node) { h.rate[node] = (*h.givenChange)[node] / dt; });
@@ -247,26 +251,33 @@ struct HeatToParticles {
   Placed<D> particles;
   ParticleView<const double> temperature;
   NodeView<const double> rate;
+  /// Temperatures of the nodes at the start of the step, if particles conduct heat within cells.
+  std::optional<NodeView<const double>> field;
   ParticleView<double> newTemperature;
 
-  static HeatToParticles from(auto& take, int ghostNodes, KeptSizes keepsSizes) {
+  static HeatToParticles from(auto& take, int ghostNodes, KeptSizes keepsSizes, bool conductsInCells) {
     return {.particles = Placed<D>::from(take, keepsSizes, 0, requiresOld(p::deformationMeasure)),
             .temperature = take(requiresOld(p::temperature)),
             .rate = take(requiresNew(g::temperatureRate, ghostNodes)),
+            .field = take(when(conductsInCells, requiresNew(g::temperature, ghostNodes))),
             .newTemperature = take(computes(p::temperature))};
   }
 };
 
-/// Computes T_p += dt sum_i S_i dT_i/dt.
+/// Computes T_p += dt sum_i S_i dT_i/dt + share (sum_i S_i T_i - T_p), with the share of conduction within cells (see
+/// subgrid_heat.hpp), if particles conduct.
 template <class Shape, int D = Shape::dimension>
-void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSize, const HeatToParticles<D>& h,
-                       double dt) {
+void updateTemperature(const Patch& patch, const Material& material, const Vec3& commonSize,
+                       const HeatToParticles<D>& h, double dt) {
+  const double share = h.field ? subgridShare<D>(patch.level(), material, dt) : 0;
   forEachStencilGroup<Shape>(
       patch, patch.cells(), h.particles, commonSize, [&](int p, int count, const auto& stencils) {
         const auto rate = nodeValues(stencils, h.rate);
         Lanes change = 0.0;
         stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) { change += s * rate[at]; });
-        for (int k = 0; k < count; ++k) h.newTemperature[p + k] = h.temperature[p + k] + dt * change[k];
+        change *= dt;
+        if (share > 0) change += share * (fieldAt(stencils, *h.field) - valuesOf(h.temperature, p, count));
+        for (int k = 0; k < count; ++k) h.newTemperature[p + k] = h.temperature[p + k] + change[k];
       });
 }
 

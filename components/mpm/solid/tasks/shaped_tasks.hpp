@@ -37,9 +37,9 @@ void scheduleNodalTemperature(TaskList& tasks, const ShapedTasks<D>& shaped, con
 
 template <int D>
 void scheduleTemperatureUpdate(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
-                               const Vec3& commonSize, KeptSizes keepsSizes) {
+                               const Vec3& commonSize, KeptSizes keepsSizes, bool conductsInCells) {
   tasks.perMaterial("mpm::updateTemperature", shaped.updateTemperature, materials, with(commonSize),
-                    all<HeatToParticles<D>>(shaped.shape.ghostNodes, keepsSizes), requiresOld(delT));
+                    all<HeatToParticles<D>>(shaped.shape.ghostNodes, keepsSizes, conductsInCells), requiresOld(delT));
 }
 
 /// Adds motion, forces, stresses and accelerations on the nodes. Separate tasks compute them, because a scene may need
