@@ -17,6 +17,12 @@ std::vector<std::size_t> Contact::bodies(std::size_t count) const {
   return found;
 }
 
+std::vector<bool> Contact::takingPart(std::size_t count) const {
+  std::vector<bool> takesPart(count, false);
+  for (const std::size_t m : bodies(count)) takesPart[m] = true;
+  return takesPart;
+}
+
 namespace {
 
 /// The value of a profile at a time.

@@ -70,10 +70,14 @@ struct Contact {
   bool concerns(int material) const;
   /// The indices of those among the first `count` materials that take part.
   std::vector<std::size_t> bodies(std::size_t count) const;
+  /// For each of `count` materials, whether it takes part.
+  std::vector<bool> takingPart(std::size_t count) const;
   /// Whether the other materials follow or meet a master.
   bool hasMaster() const { return type == Type::specified || type == Type::specifiedFriction; }
   /// Whether bodies touch along planes that separate their particles.
   bool usesPlanes() const { return type == Type::planeFriction || type == Type::specifiedFriction; }
+  /// Whether the contact reads the records of bodies at nodes that they do not touch.
+  bool readsAllNodes() const { return type != Type::friction && type != Type::planeFriction; }
   /// The master's motion at a time, if it is prescribed.
   std::optional<Motion> prescribedMotion(double time) const;
   /// The master's velocity at a time, if it is prescribed.

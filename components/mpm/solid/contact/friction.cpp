@@ -1,6 +1,8 @@
 #include "components/mpm/solid/contact/friction.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "components/mpm/solid/transfer/extent.hpp"
@@ -17,6 +19,9 @@ constexpr double leastGradient = 1e-15;
 /// body.
 constexpr double leastGradientShare = 1e-10;
 
+/// The indices of bodies that have mass at a node.
+using Bodies = std::span<const std::size_t>;
+
 /// All bodies that take part, at one node.
 template <int D>
 struct Gathering {
@@ -26,25 +31,6 @@ struct Gathering {
   std::size_t steepest = 0;        ///< index of that body
 };
 
-/// Calls `visit(node)` once for each node of a box at which more than one of these bodies has mass.
-template <int D, class Visit>
-void forEachMeeting(const Box& nodes, const std::vector<std::size_t>& bodies, const RowsOfNodes& rows,
-                    const Records& records, Visit&& visit) {
-  const auto has = [&](std::size_t k, const Index<D>& node) { return records[bodies[k]][node][lane::mass] > 0; };
-  for (std::size_t k = 0; k + 1 < bodies.size(); ++k)
-    rows[bodies[k]]->forEachRow(nodes, [&](const Index3& first, int end) {
-      Index<D> node;
-      for (int d = 0; d < D; ++d) node[d] = first[d];
-      for (; node[0] < end; ++node[0]) {
-        if (!has(k, node)) continue;
-        bool isFirst = true, areMore = false;
-        for (std::size_t j = 0; j < k; ++j) isFirst = isFirst && !has(j, node);
-        for (std::size_t j = k + 1; j < bodies.size(); ++j) areMore = areMore || has(j, node);
-        if (isFirst && areMore) visit(std::as_const(node));
-      }
-    });
-}
-
 /// Whether a mass gradient is more than a rounding error at a node with this mass.
 template <int D>
 bool hasDirection(const Level& level, const Vec<D>& gradient, double mass) {
@@ -52,8 +38,8 @@ bool hasDirection(const Level& level, const Vec<D>& gradient, double mass) {
 }
 
 template <int D>
-Gathering<D> gatherBodies(const Level& level, const std::vector<std::size_t>& bodies, const Records& records,
-                          const Surfaces& surfaces, const Index<D>& node) {
+Gathering<D> gatherBodies(const Level& level, Bodies bodies, const Records& records, const Surfaces& surfaces,
+                          const Index<D>& node) {
   Gathering<D> all;
   for (const std::size_t m : bodies) {
     const NodeRecord& record = records[m][node];
@@ -74,10 +60,10 @@ Gathering<D> gatherBodies(const Level& level, const std::vector<std::size_t>& bo
   return all;
 }
 
-/// Whether a body takes part in a contact at a node, and has more mass there than rounding errors.
+/// Whether a body has more mass at a node than rounding errors.
 template <int D>
-bool isThere(const Contact& contact, const Records& records, double totalMass, std::size_t m, const Index<D>& node) {
-  return contact.concerns(static_cast<int>(m)) && records[m][node][lane::mass] >= leastShare * totalMass;
+bool isThere(const Records& records, double totalMass, std::size_t m, const Index<D>& node) {
+  return records[m][node][lane::mass] >= leastShare * totalMass;
 }
 
 /// Whether the stress of a surface is compressive along a normal.
@@ -97,15 +83,15 @@ Vec<D> gradientOf(const Surfaces& surfaces, std::size_t m, const Index<D>& node)
 }
 
 /// The unit normal that points out of a body at a node, from the mass gradient of the body and, if Contact::oneNormal,
-/// from those of the other bodies; 0 if that is nearly 0.
+/// from those of the other bodies there, whether or not they take part; 0 if that is nearly 0.
 template <int D>
-Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces& surfaces,
-                std::size_t m, const Index<D>& node) {
+Vec<D> normalOf(const Level& level, const Contact& contact, Bodies bodies, const Records& records,
+                const Surfaces& surfaces, std::size_t m, const Index<D>& node) {
   Vec<D> others = Vec<D>::Zero();
   double mass = 0;
   const double own = records[m][node][lane::mass];
-  for (std::size_t n = 0; n < records.size() && contact.oneNormal; ++n) {
-    if (n == m) continue;
+  for (const std::size_t n : bodies) {
+    if (n == m || !contact.oneNormal) continue;
     others += records[n][node][lane::mass] * gradientOf<D>(surfaces, n, node);
     mass += records[n][node][lane::mass];
   }
@@ -117,11 +103,10 @@ Vec<D> normalOf(const Level& level, const Contact& contact, const Records& recor
 
 /// Whether the stresses of all bodies at a node are compressive along the node's normal.
 template <int D>
-bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces& surfaces,
+bool arePressed(const Level& level, Bodies bodies, const Records& records, const Surfaces& surfaces,
                 const Gathering<D>& all, const Index<D>& node) {
-  for (std::size_t m = 0; m < records.size(); ++m)
-    if (isThere<D>(contact, records, all.mass, m, node) && !isPressed<D>(level, surfaces[m][node], all.normal))
-      return false;
+  for (const std::size_t m : bodies)
+    if (isThere<D>(records, all.mass, m, node) && !isPressed<D>(level, surfaces[m][node], all.normal)) return false;
   return true;
 }
 
@@ -160,25 +145,32 @@ void applyFriction(const Patch& patch, const Contact& contact, double dt, const 
   const double reach = contact.separationFactor * std::cbrt(level.cellVolume());
   const double leastVolume = contact.volumeConstraint * level.cellVolume();
   const Box nodes = records.front().box();
-  const std::vector<std::size_t> bodies = contact.bodies(records.size());
+  std::vector<std::size_t> all(records.size()), bodies;
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<bool> takesPart = contact.takingPart(records.size());
   const Box counted = contact.keepsMomentum ? nodes : nodes.intersect(level.nodesOfCells());
   const bool skipsOutside = !contact.keepsMomentum && level.boxes();
-  forEachMeeting<D>(counted, bodies, rows, records, [&](const Index<D>& node) {
+  MeetingBodies<D>(counted, all, rows, records).forEachNode([&](const Index<D>& node, Bodies there) {
     if (skipsOutside && !level.isNodeInside<D>(node)) return;
-    const Gathering<D> all = gatherBodies<D>(level, bodies, records, surfaces, node);
-    if (all.normal.isZero() || all.volume <= leastVolume) return;
+    bodies.clear();
+    for (const std::size_t m : there)
+      if (takesPart[m]) bodies.push_back(m);
+    if (bodies.size() < 2) return;
+    const Gathering<D> sum = gatherBodies<D>(level, bodies, records, surfaces, node);
+    if (sum.normal.isZero() || sum.volume <= leastVolume) return;
     const bool together =
-        contact.keepsMomentum && !contact.onlyOnApproach && arePressed<D>(level, contact, records, surfaces, all, node);
+        contact.keepsMomentum && !contact.onlyOnApproach && arePressed<D>(level, bodies, records, surfaces, sum, node);
     for (const std::size_t m : bodies) {
       NodeRecord& record = records[m][node];
-      const double mass = record[lane::mass], others = all.mass - mass;
-      if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
+      const double mass = record[lane::mass], others = sum.mass - mass;
+      if (!isThere<D>(records, sum.mass, m, node) || others < leastShare * sum.mass) continue;
       const SurfaceRecord& surface = surfaces[m][node];
-      if (separation<D>(all, surface.massPosition<D>(), mass) >= reach) continue;
+      if (separation<D>(sum, surface.massPosition<D>(), mass) >= reach) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity);
-      Touch<D> touch{normalOf<D>(level, contact, records, surfaces, m, node), v - all.momentum / all.mass, together};
+      Touch<D> touch{normalOf<D>(level, contact, there, records, surfaces, m, node), v - sum.momentum / sum.mass,
+                     together};
       if (contact.keepsMomentum)
-        touch.normal = m == all.steepest ? all.normal : Vec<D>(-all.normal);
+        touch.normal = m == sum.steepest ? sum.normal : Vec<D>(-sum.normal);
       else if (!contact.onlyOnApproach)
         touch.isPressed = isPressed<D>(level, surface, touch.normal);
       const FrictionImpulse<D> impulse = frictionImpulse<D>(touch, contact.friction);

@@ -94,13 +94,6 @@ MeetingBodies<D> meetingBodies(const Records& records, const SeparatingPlanes<D>
   return {nodes, bodies, rows, records};
 }
 
-/// For each of `count` materials, whether it takes part in a contact.
-std::vector<bool> takingPart(const Contact& contact, std::size_t count) {
-  std::vector<bool> takesPart(count, false);
-  for (const std::size_t m : contact.bodies(count)) takesPart[m] = true;
-  return takesPart;
-}
-
 /// Index of the material, of those present at a node, to which the plane there belongs; -1 if there is no plane.
 template <int D>
 int foremost(const SeparatingPlanes<D>& planes, std::span<const std::size_t> bodies, const Index<D>& node) {
@@ -183,7 +176,7 @@ Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double w
 template <int D>
 void slideAlongPlanes(const Level& level, const Contact& contact, const Records& records,
                       const SeparatingPlanes<D>& planes) {
-  const std::vector<bool> takesPart = takingPart(contact, records.size());
+  const std::vector<bool> takesPart = contact.takingPart(records.size());
   meetingBodies<D>(records, planes).forEachNode([&](const Index<D>& node, std::span<const std::size_t> bodies) {
     const int first = foremost<D>(planes, bodies, node);
     if (first < 0) return;

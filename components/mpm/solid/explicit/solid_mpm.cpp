@@ -182,7 +182,7 @@ void SolidMpm<D>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
     tasks.perMaterial("mpm::computeSSPlusVp", bodies_->computeSSPlusVp, materials, with(method.commonSize), record,
                       particles, computes(p::smoothVelocity<D>));
     tasks.perMaterial(
-        "mpm::computeSPlusSSPlusVp", bodies_->interpolateMomentum, materials, with(method.commonSize),
+        "mpm::computeSPlusSSPlusVp", bodies_->interpolateMomentum, materials, with(method.commonSize), with(false),
         all<MomentumSources<D>>(reach, keepsSizes(), requiresNew(p::smoothVelocity<D>, reach), shapedBy(shaped, reach)),
         computesOwn(g::smoothRecord));
     tasks.perMaterial("mpm::applyXpic", bodies_->applyXpic, materials, with(method.commonSize), requiresOld(delT),
@@ -200,6 +200,7 @@ void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) con
   const int reach = shapes_.reach;
   tasks.perMaterial(
       "mpm::interpolateMomentum", bodies_->interpolateMomentum, problem_.materials, with(problem_.method.commonSize),
+      with(clearsAllNodes()),
       all<MomentumSources<D>>(reach, keepsSizes(), moving(p::velocity<D>, reach), shapedBy(readsOld, reach)),
       computesOwn(g::stressRecord));
   if (!problem_.contacts.empty()) scheduleContact(tasks, "mpm::exMomOfStresses", Moment::end, g::stressRecord);

@@ -73,7 +73,7 @@ class SolidsOf : public Solids {
   }
   /// Whether untouched nodes must be 0, because contacts or tasks other than those of the solids read them.
   bool clearsAllNodes() const {
-    return anyContact([](const Contact& contact) { return contact.type != Contact::Type::planeFriction; }) ||
+    return anyContact([](const Contact& contact) { return contact.readsAllNodes(); }) ||
            problem_.method.loadsAtCorners || problem_.surroundings || hasZones();
   }
   bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }

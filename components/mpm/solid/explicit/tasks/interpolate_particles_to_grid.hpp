@@ -310,12 +310,13 @@ void interpolateParticlesToGrid(const Patch& patch, const Material& material, co
   scatterParticles<Shape>(patch, material, clearsAll, from.x, scatter, record);
 }
 
-/// Computes m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i for any velocity of particles; no forces.
+/// Computes m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i for any velocity of particles; no forces. The values
+/// are defined where interpolateParticlesToGrid defines them.
 template <class Shape, int D = Shape::dimension>
-void interpolateMomentum(const Patch& patch, const Material& material, const Vec3& commonSize,
+void interpolateMomentum(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
                          const MomentumSources<D>& from, NodeView<NodeRecord> record) {
   const Scatter<Shape> scatter(patch.level(), material, commonSize, from, nullptr, record);
-  scatterParticles<Shape>(patch, material, true, from.x, scatter, record);
+  scatterParticles<Shape>(patch, material, clearsAll, from.x, scatter, record);
 }
 
 }  // namespace tushar::mpm::solid
