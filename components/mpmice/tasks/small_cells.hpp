@@ -1,8 +1,10 @@
 #pragma once
 
 #include <bit>
+#include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "components/mpmice/free_space.hpp"
 #include "components/mpmice/near_bodies.hpp"
@@ -192,8 +194,8 @@ class SmallCells {
     if (!isSmall(cell)) return none;
     return known_.contains(cell) ? choices_[offsetIn<D>(known_, cell)] : choiceOfSmall(cell);
   }
-  /// The neighbours that suit best, except for round-off. If a cell with gas has closed faces to them, it is one of
-  /// them, so that gas does not pass through the cell.
+  /// The neighbours that suit best, except for round-off. Behind closed faces, a cell with gas chooses only one, so
+  /// that gas does not pass through it.
   Choice choiceOfSmall(const Index<D>& cell) const {
     double most = unsuited;
     forEachAround(cell, [&](const Index<D>& at) { most = std::max(most, scoreOf(cell, at)); });

@@ -1,7 +1,6 @@
 #include "components/mpm/solid/contact/friction.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -139,19 +138,18 @@ FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu) {
 }
 
 template <int D>
-void applyFriction(const Patch& patch, const Contact& contact, double dt, const RowsOfNodes& rows,
+void applyFriction(const Patch& patch, const Contact& contact, double dt, const MeetingBodies<D>& meeting,
                    const Records& records, const Surfaces& surfaces, const FrictionHeats& heat) {
   const Level& level = patch.level();
   const double reach = contact.separationFactor * std::cbrt(level.cellVolume());
   const double leastVolume = contact.volumeConstraint * level.cellVolume();
   const Box nodes = records.front().box();
-  std::vector<std::size_t> all(records.size()), bodies;
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<std::size_t> bodies;
   const std::vector<bool> takesPart = contact.takingPart(records.size());
   const Box counted = contact.keepsMomentum ? nodes : nodes.intersect(level.nodesOfCells());
   const bool skipsOutside = !contact.keepsMomentum && level.boxes();
-  MeetingBodies<D>(counted, all, rows, records).forEachNode([&](const Index<D>& node, Bodies there) {
-    if (skipsOutside && !level.isNodeInside<D>(node)) return;
+  meeting.forEachNode([&](const Index<D>& node, Bodies there) {
+    if (!counted.contains(node) || (skipsOutside && !level.isNodeInside<D>(node))) return;
     bodies.clear();
     for (const std::size_t m : there)
       if (takesPart[m]) bodies.push_back(m);
@@ -184,11 +182,11 @@ void applyFriction(const Patch& patch, const Contact& contact, double dt, const 
 template FrictionImpulse<1> frictionImpulse<1>(const Touch<1>&, double);
 template FrictionImpulse<2> frictionImpulse<2>(const Touch<2>&, double);
 template FrictionImpulse<3> frictionImpulse<3>(const Touch<3>&, double);
-template void applyFriction<1>(const Patch&, const Contact&, double, const RowsOfNodes&, const Records&,
+template void applyFriction<1>(const Patch&, const Contact&, double, const MeetingBodies<1>&, const Records&,
                                const Surfaces&, const FrictionHeats&);
-template void applyFriction<2>(const Patch&, const Contact&, double, const RowsOfNodes&, const Records&,
+template void applyFriction<2>(const Patch&, const Contact&, double, const MeetingBodies<2>&, const Records&,
                                const Surfaces&, const FrictionHeats&);
-template void applyFriction<3>(const Patch&, const Contact&, double, const RowsOfNodes&, const Records&,
+template void applyFriction<3>(const Patch&, const Contact&, double, const MeetingBodies<3>&, const Records&,
                                const Surfaces&, const FrictionHeats&);
 
 }  // namespace tushar::mpm::solid

@@ -44,7 +44,7 @@ using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 /// compression. In contacts that conserve momentum, all bodies have the normal of the body with the largest mass
 /// gradient, or its opposite, and count as in compression if the stresses of all are compressive.
 template <int D>
-void applyFriction(const Patch& patch, const Contact& contact, double dt, const RowsOfNodes& rows,
+void applyFriction(const Patch& patch, const Contact& contact, double dt, const MeetingBodies<D>& meeting,
                    const Records& records, const Surfaces& surfaces, const FrictionHeats& heat);
 
 }  // namespace tushar::mpm::solid

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "components/mpm/solid/transfer/node_record.hpp"
@@ -98,6 +101,11 @@ class MeetingBodies {
       });
   }
 
+  /// All materials of `records`, at the nodes of their views.
+  template <class Record>
+  MeetingBodies(const RowsOfNodes& rows, const std::vector<NodeView<Record>>& records)
+      : MeetingBodies(records.front().box(), indices(records.size()), rows, records) {}
+
   /// Calls `visit(node, bodies)` for each of these nodes in lexicographic order, with the indices of its bodies in
   /// ascending order.
   template <class Visit>
@@ -113,6 +121,12 @@ class MeetingBodies {
   }
 
  private:
+  static std::vector<std::size_t> indices(std::size_t count) {
+    std::vector<std::size_t> all(count);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+  }
+
   MeetingPlaces<D> places_;
   std::vector<int> begin_;  ///< where the bodies of each of these nodes begin, and end
   std::vector<std::size_t> bodies_;

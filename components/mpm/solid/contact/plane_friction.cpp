@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -85,13 +84,10 @@ Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda
 /// Where bodies meet.
 template <int D>
 MeetingBodies<D> meetingBodies(const Records& records, const SeparatingPlanes<D>& planes) {
-  const Box& nodes = records.front().box();
-  const data::TouchedRows all = data::TouchedRows::all(nodes);
+  const data::TouchedRows all = data::TouchedRows::all(records.front().box());
   RowsOfNodes rows;
   for (const auto& plane : planes) rows.push_back(plane.x ? &touchedRows<D>(*plane.x, plane.ghostNodes) : &all);
-  std::vector<std::size_t> bodies(records.size());
-  std::iota(bodies.begin(), bodies.end(), std::size_t{0});
-  return {nodes, bodies, rows, records};
+  return {rows, records};
 }
 
 /// Index of the material, of those present at a node, to which the plane there belongs; -1 if there is no plane.

@@ -226,7 +226,8 @@ void checkHeatStep(const Level& level, const Material& material, double dt);
 
 /// Computes dT_i/dt [K/s], the rate of change from the temperature without boundary conditions to T*_i = T_i + (Q_i /
 /// C_i + contact) dt + H_i / C_i with the heat H_i of friction, minus the change that conduction within cells gives the
-/// particles; at nodes with a given temperature, the change that followGivenTemperature computes, per dt.
+/// particles. At nodes with a given temperature, it is the change that followGivenTemperature computes, per dt, without
+/// the share of the gap that conduction within cells closes.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, const NodalHeating& h, double dt) {
   checkHeatStep(patch.level(), material, dt);
@@ -240,8 +241,9 @@ void integrateTemperatureRate(const Patch& patch, const Material& material, cons
     h.rate[node] = (h.rate[node] - h.temperatureNoBC[node] - h.subgridChange[node]) / dt;
   });
   if (!h.givenChange) return;
+  const double left = 1 - subgridShare<D>(patch.level(), material, dt);
   forEachGivenTemperature(patch, material.index, [&](const Box& nodes, double) {
-    forEach<D>(nodes, [&](const Index<D>& node) { h.rate[node] = (*h.givenChange)[node] / dt; });
+    forEach<D>(nodes, [&](const Index<D>& node) { h.rate[node] = left * (*h.givenChange)[node] / dt; });
   });
 }
 

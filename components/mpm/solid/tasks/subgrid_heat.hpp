@@ -11,7 +11,8 @@
 namespace tushar::mpm::solid {
 
 /// The fraction 1 - exp(-dt / tau) by which the temperatures of particles approach the field of the nodes in a step,
-/// with tau = rho c_v / (k sum_d 2 / h_d^2), the time in which heat crosses a cell (equation 39 of the source, d = 1).
+/// with tau = rho c_v / (k sum_d 2 / h_d^2), about the time in which heat crosses a cell (equation 39 of the source, d
+/// = 1).
 template <int D>
 double subgridShare(const Level& level, const Material& material, double dt) {
   double rate = 0;

@@ -81,7 +81,7 @@ struct TwoBodies {
     }
     const FrictionHeats noHeat(sides.size());
     const data::TouchedRows all = data::TouchedRows::all(nodes);
-    applyFriction<2>(grid.patches().front(), contact, 1e-3, {&all, &all}, views, sides, noHeat);
+    applyFriction<2>(grid.patches().front(), contact, 1e-3, {{&all, &all}, views}, views, sides, noHeat);
   }
 
   Grid grid;

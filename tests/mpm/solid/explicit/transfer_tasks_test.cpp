@@ -90,7 +90,7 @@ struct Cloud : test::Particles {
           patch(), material, method.commonSize, true, from,
           {.volume = read(volume), .stress = read(stress), .viscosity = {}, .externalForce = {}}, nodes());
     else
-      interpolateMomentum<Shape>(patch(), material, method.commonSize, from, nodes());
+      interpolateMomentum<Shape>(patch(), material, method.commonSize, true, from, nodes());
   }
   /// Calls `visit(position, record)` for each node.
   template <class Visit>

@@ -136,9 +136,10 @@ void exchangeByFriction(const Patch& patch, const std::vector<Material>& materia
   for (const auto& ofMaterial : x) rows.push_back(&touchedRows<D>(ofMaterial, ghostNodes));
   for (const auto& ofMaterial : heat)
     if (ofMaterial) ofMaterial->fill(0.0);
+  const MeetingBodies<D> meeting(rows, records);
   for (const Contact& contact : contacts)
     if (contact.type == Contact::Type::friction && (contact.actsTwice || moment == Moment::end))
-      applyFriction<D>(patch, contact, dt, rows, records, surfaces, heat);
+      applyFriction<D>(patch, contact, dt, meeting, records, surfaces, heat);
 }
 
 }  // namespace tushar::mpm::solid

@@ -121,7 +121,7 @@ void interpolateColor(const Patch& patch, const Material& material, const Vec3& 
     });
   });
   forEach<D>(mean.box(), [&](const Index<D>& node) {
-    if (const double total = record[node][lane::mass]; total > 0) mean[node] /= total;
+    if (mean[node] != 0) mean[node] /= record[node][lane::mass];
   });
 }
 
