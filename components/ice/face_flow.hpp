@@ -13,10 +13,11 @@
 
 namespace tushar::ice {
 
-/// Gravity and diffusion of a gas, and the settings of implicit steps.
+/// Gravity, driving force and diffusion of a gas, and the settings of implicit steps.
 struct IceSettings {
   euler::Diffusion diffusion;
   Vec3 gravity = Vec3::Zero();  ///< gravity [m/s²]
+  Vec3 push = Vec3::Zero();     ///< driving force per volume [N/m³], in implicit steps
   double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: no limit
   solvers::LinearSettings solver = {};
 };
@@ -57,12 +58,13 @@ template <int D, int K = 1>
 class GasBefore {
  public:
   /// Allocates space for boxes of up to `cells` cells; the laws and the rules at the sides must outlive this object.
-  GasBefore(const Level& level, const LawsOf<K>& gas, const Vec3& gravity, const euler::GhostRules<D>& rules,
+  GasBefore(const Level& level, const LawsOf<K>& gas, const IceSettings& settings, const euler::GhostRules<D>& rules,
             std::size_t cells, IsFlat<D> isFlat = {})
       : level_(level),
         rules_(rules),
         gas_(gas),
-        gravity_(level.reduce<D>(gravity)),
+        gravity_(level.reduce<D>(settings.gravity)),
+        push_(level.reduce<D>(settings.push)),
         is_flat_(std::move(isFlat)),
         old_(cells) {
     for (int d = 0; d < D; ++d)
@@ -84,7 +86,10 @@ class GasBefore {
 
   const Level& level() const { return level_; }
   const LawsOf<K>& gas() const { return gas_; }
+  /// The acceleration [m/s²] by gravity and the driving force where the density [kg/m³] is `density`.
+  double acceleration(int axis, double density) const { return gravity_[axis] + push_[axis] / density; }
   const Vec<D>& gravity() const { return gravity_; }
+  const Vec<D>& push() const { return push_; }
   /// Rho, v and p; for several gases also their masses and volume fractions.
   const euler::Rows<D, K>& old() const { return old_; }
   /// Speed of sound in a cell [m/s].
@@ -185,7 +190,7 @@ class GasBefore {
   const Level& level_;
   const euler::GhostRules<D>& rules_;
   const LawsOf<K>& gas_;
-  Vec<D> gravity_;
+  Vec<D> gravity_, push_;
   IsFlat<D> is_flat_;
   std::array<std::array<int, 2>, D> sides_;  ///< the first and the last face along each axis; out of reach if periodic
   euler::Rows<D, K> old_;
@@ -216,7 +221,7 @@ class FaceFlow : public GasBefore<D, K> {
   /// Like the constructor above, for the given laws, which must outlive this object.
   FaceFlow(const Level& level, const LawsOf<K>& gas, const euler::Method& method, const IceSettings& settings,
            const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {})
-      : GasBefore<D, K>(level, gas, settings.gravity, rules, largest.grown(2, D).size(), std::move(isFlat)),
+      : GasBefore<D, K>(level, gas, settings, rules, largest.grown(2, D).size(), std::move(isFlat)),
         dt_(dt),
         hasSlopes_(method.reconstruction != euler::Reconstruction::firstOrder),
         ahead_(this->old()) {}
@@ -238,8 +243,8 @@ class FaceFlow : public GasBefore<D, K> {
     }
     const double* above = this->old().component(euler::kPressure<D>) + this->old().offsetOf(face);
     const double rise = above[0] - above[-this->old().stride(axis)];
-    return this->mean(ahead_, face, axis, euler::kVelocity(axis)) + dt_ * this->gravity()[axis] -
-           this->mobility(face, axis, dt_) * rise;
+    return this->mean(ahead_, face, axis, euler::kVelocity(axis)) +
+           dt_ * this->acceleration(axis, this->density(face, axis)) - this->mobility(face, axis, dt_) * rise;
   }
   /// The decrease of u_f per increase of the pressure in the cell above the face [m/(s Pa)]. It equals the increase of
   /// u_f per increase of the pressure in the cell below. The pressure beyond a side does not change.
@@ -277,7 +282,7 @@ class FaceFlow : public GasBefore<D, K> {
     return {.normal = normal,
             .speed = normal * speed,
             .carried = normal * (ahead_.number(cell, v) - speed),
-            .pressure = pressure + 0.5 * rho * h * normal * this->gravity()[axis],
+            .pressure = pressure + 0.5 * rho * h * normal * this->acceleration(axis, rho),
             .lightness = 1 / (rho * sound),
             .push = 2 * dt_ / (rho * h),
             .relaxed = relaxes.acts() ? relaxes.loss(pressure, normal * speed, sound, sound * dt_ / h) : 0};

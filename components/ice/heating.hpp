@@ -17,9 +17,10 @@ struct Heating {
   bool acts() const {
     return std::any_of(perMass.begin(), perMass.end(), [](double rate) { return rate != 0; });
   }
-  /// The heat per mass added to a gas in a step [J/kg]; 0 if the step starts outside the heating period.
+  /// The heat per mass added to a gas in the part of a step that is within the heating period [J/kg].
   double inStep(std::size_t gas, double time, double dt) const {
-    return time >= start && time <= end ? perMass[gas] * dt : 0;
+    if (time >= start && time + dt <= end) return perMass[gas] * dt;
+    return perMass[gas] * std::max(std::min(time + dt, end) - std::max(time, start), 0.0);
   }
 };
 

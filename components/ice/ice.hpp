@@ -25,6 +25,7 @@ class Ice : public euler::Euler<D> {
     for (const ScalarSettings& one : scene.scalars) scalars_.push_back(std::make_shared<const CarriedScalar>(one));
     tracers_ = tracersOf(scene.tracers, {scene.gas.name}, scalars_, false);
     if (!scene.implicit) return;
+    std::swap(acting_.push, push_);  // the solve for the pressure needs it
     acting_.soundSpeedKnob = scene.implicit->soundSpeedKnob;
     acting_.solver = scene.implicit->solver;
   }

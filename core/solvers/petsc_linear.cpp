@@ -52,6 +52,19 @@ double toleranceOf(const LinearProblem& problem, const LinearSettings& settings,
   return std::max(settings.tolerance * problem.scale / size, std::min(settings.tolerance, leastTolerance));
 }
 
+/// Ends the solve if the residual is the rounding error of `scale`, and compares with `scale` before it calls a
+/// residual divergent: beside a right-hand side of round-off, a solution of round-off may start from a guess that is
+/// not 0.
+void allowRoundOff(const LinearProblem& problem, const LinearSettings& settings, Vec b, KSP krylov) {
+  if (problem.scale <= 0) return;
+  PetscReal size = 0, divergence = 0;
+  PetscInt iterations = 0;
+  check(VecNorm(b, NORM_2, &size));
+  check(KSPGetTolerances(krylov, nullptr, nullptr, &divergence, &iterations));
+  if (size > 0) divergence *= std::max(1.0, problem.scale / size);
+  check(KSPSetTolerances(krylov, settings.tolerance, leastTolerance * problem.scale, divergence, iterations));
+}
+
 }  // namespace
 
 Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
@@ -73,6 +86,7 @@ Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, cons
   LinearSettings used = settings;
   used.tolerance = toleranceOf(problem, settings, b);
   configure(krylov, used, "cg");
+  allowRoundOff(problem, used, b, krylov);
   outcome.setup = timed([&] { check(KSPSetUp(krylov)); });
   outcome.solve = timed([&] { check(KSPSolve(krylov, b, solution)); });
   if (free) check(MatNullSpaceRemove(free, solution));

@@ -177,10 +177,13 @@ std::string heatTags(const std::string& materials, const std::string& rates, con
 TEST(Heating, LastsFromItsStartToItsEnd) {
   const Heating heating{{}, {0, 5}, 0.2, 0.4};
   EXPECT_TRUE(heating.acts());
-  EXPECT_EQ(heating.inStep(1, 0.1, 0.5), 0);
-  EXPECT_EQ(heating.inStep(1, 0.2, 0.5), 2.5);
-  EXPECT_EQ(heating.inStep(0, 0.2, 0.5), 0);
+  EXPECT_EQ(heating.inStep(1, 0.25, 0.125), 0.625);
+  EXPECT_EQ(heating.inStep(0, 0.25, 0.125), 0);
   EXPECT_EQ(heating.inStep(1, 0.41, 0.5), 0);
+  EXPECT_EQ(heating.inStep(1, 0, 0.1), 0);
+  EXPECT_NEAR(heating.inStep(1, 0.1, 0.5), 1, 1e-15) << "a step that contains the period";
+  EXPECT_NEAR(heating.inStep(1, 0.1, 0.15), 0.25, 1e-15);
+  EXPECT_NEAR(heating.inStep(1, 0.375, 0.5), 0.125, 1e-15);
   EXPECT_FALSE((Heating{{}, {0, 0}, 0, 1}).acts());
 }
 

@@ -75,7 +75,7 @@ class Line {
   std::optional<double> velocityAt(int face) {
     const euler::GhostRules<1> rules = euler::ghostRules<1>(level(), method_.gas);
     const Box cells = level().cells().grown(1, 1);
-    GasBefore<1> gas(level(), method_.gas, settings_.gravity, rules, cells.size());
+    GasBefore<1> gas(level(), method_.gas, settings_, rules, cells.size());
     gas.hold(cells, before());
     return gas.givenVelocity(Index<1>{{face}}, 0);
   }

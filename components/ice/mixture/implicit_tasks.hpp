@@ -127,7 +127,7 @@ void limitImplicitMixture(const Patch& patch, const Gases& gases, const euler::C
   const Box cells = patch.cells().grown(1, D);
   double greatest = 0;
   withLaws(gases, [&]<int K>(const euler::Mixture<K>& laws) {
-    GasBefore<D, K> gas(level, laws, settings.gravity, rules, cells.size());
+    GasBefore<D, K> gas(level, laws, settings, rules, cells.size());
     gas.hold(cells, euler::viewsOf<const double, D>(before, held));
     euler::Rows<D, K> pushing = gas.old();
     gas.fillWithPressure(pressure, pushing);

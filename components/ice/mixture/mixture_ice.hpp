@@ -43,6 +43,8 @@ class MixtureIce : public Component, public reference::GasSolution {
   /// Adds the tasks that change the gases after their flow: conversion into another gas, viscosity, conduction, forces,
   /// heat.
   void scheduleSources(TaskList& tasks) const;
+  /// The driving force per volume [N/m³], which from then on is not added after the flow.
+  Vec3 takePush() { return std::exchange(push_, Vec3::Zero()); }
   /// Adds the task that limits the time step by diffusion, together with the given fraction of the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   /// Adds the heat exchange between gases, after all other tasks of the gases.

@@ -68,22 +68,24 @@ class ImplicitStep {
   }
   euler::Rows<D, K>& flux() { return flux_; }
 
-  /// Adds the component of gravity along an axis to each cell of a block, in equal parts at the two faces normal to the
-  /// axis, and its work on the flow through these faces. So stratified gas remains at rest.
+  /// Adds gravity and the driving force along an axis to each cell of a block, in equal parts at the two faces normal
+  /// to the axis, and its work on the flow through these faces. So stratified gas remains at rest.
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
     addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
   }
   /// Adds gravity like the function above, but only in the cells for which `takes(cell)` is true.
   template <class Takes>
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh, Takes&& takes) {
-    const double g = flow_.gravity()[axis];
-    if (g == 0) return;
+    const double g = flow_.gravity()[axis], force = flow_.push()[axis];
+    if (g == 0 && force == 0) return;
     forEach<D>(block, [&](const Index<D>& cell) {
       if (!takes(cell)) return;
       const Index<D> above = cell + Index<D>::unit(axis);
-      fresh.momentum[cell][axis] += 0.5 * dt_ * g * (flow_.density(cell, axis) + flow_.density(above, axis));
-      const std::size_t mass = euler::kDensity;
-      fresh.totalEnergy[cell] += 0.5 * dt_ * g * (flux_.number(cell, mass) + flux_.number(above, mass));
+      const double rho = flow_.density(cell, axis), rhoAbove = flow_.density(above, axis);
+      const double mass = flux_.number(cell, euler::kDensity), massAbove = flux_.number(above, euler::kDensity);
+      fresh.momentum[cell][axis] += 0.5 * dt_ * g * (rho + rhoAbove) + dt_ * force;
+      fresh.totalEnergy[cell] += 0.5 * dt_ * g * (mass + massAbove);
+      fresh.totalEnergy[cell] += 0.5 * dt_ * force * (mass / rho + massAbove / rhoAbove);
     });
   }
 
@@ -115,7 +117,8 @@ class ImplicitStep {
     const double viscous = together > 0 ? shockSlope(face, axis) * rho * together * together : 0;
     // If a velocity is given without a pressure, as at a wall, p' follows from the adjacent cell, whose centre is half
     // a cell away.
-    const double weight = flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis] : 0;
+    const double weight =
+        flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.acceleration(axis, rho) : 0;
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
   }
   /// p' beyond a face of a cell [Pa]. Beyond an open side, it is the value whose mean with the value of the cell is p'
@@ -153,7 +156,8 @@ class ImplicitStep {
       const euler::State<D, K> slopes = flow_.slopes(cell, d);
       for (std::size_t k = 0; k < w.size(); ++k) *middle[k] -= ratio * w[euler::kVelocity(d)] * slopes[k];
       const double push = 0.5 * (pressureBeyond(cell, d, 1) - pressureBeyond(cell, d, 0));
-      *middle[euler::kVelocity(d)] += 0.5 * dt_ * flow_.gravity()[d] - ratio * push / w[euler::kDensity];
+      *middle[euler::kVelocity(d)] +=
+          0.5 * dt_ * flow_.acceleration(d, w[euler::kDensity]) - ratio * push / w[euler::kDensity];
     }
   }
 

@@ -33,7 +33,7 @@ double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, cons
     const double gained = gas.mobility(face, axis, second);
     if (gained == 0) return 0.0;
     const double rise = pushing.number(face, p) - pushing.number(face - Index<D>::unit(axis), p);
-    return std::abs(gas.gravity()[axis] - gained * rise);
+    return std::abs(gas.acceleration(axis, gas.density(face, axis)) - gained * rise);
   };
   const auto speed = [&](const Index<D>& cell, int axis) {
     double most = std::abs(gas.old().number(cell, euler::kVelocity(axis)));
@@ -66,7 +66,7 @@ void limitImplicitStepWith(const Patch& patch, const euler::Settings& method, co
   euler::refuseBroken<D, const double>(patch, method.gas, before, nullptr);
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
   const Box cells = patch.cells().grown(1, D);
-  GasBefore<D> gas(level, method.gas, settings.gravity, rules, cells.size());
+  GasBefore<D> gas(level, method.gas, settings, rules, cells.size());
   gas.hold(cells, before);
   euler::Rows<D> pushing = gas.old();
   gas.fillWithPressure(pressure, pushing);

@@ -128,8 +128,8 @@ class Sweeps {
     faces_.shift.fill(Vec<D>::Constant(c::notSwept));
   }
   /// Adds the volume, in cells, that a box sweeps upwards through the lower faces of the surrounding cells while it
-  /// moves from `before` to `after`. It is the mean of two sequences of moves along one axis each: with the axes in
-  /// ascending and in descending order.
+  /// moves from `before` to `after`. It is the mean over all sequences of moves along one axis each, so that no axis is
+  /// preferred.
   void add(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after);
   /// Divides the sums of displacements by those of their weights. Faces for which `isNeeded(cell)` is false count as
   /// not swept.
@@ -155,6 +155,20 @@ class Sweeps {
   using Along = std::array<double, 2 * (boxReach + 2)>;
   static_assert(std::tuple_size_v<Along> % 4 == 0);
 
+  /// The mean section of a box across axis `a` while it moves along this axis: over all sequences of moves, in which
+  /// the box has already moved along another axis, or not yet.
+  static double meanSection(const Along (&old)[D], const Along (&fresh)[D], const Index<D>& k, int a) {
+    if constexpr (D == 1) {
+      return 1;
+    } else if constexpr (D == 2) {
+      const int b = 1 - a;
+      return 0.5 * (old[b][k[b]] + fresh[b][k[b]]);
+    } else {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      const double was[] = {old[b][k[b]], old[c][k[c]]}, is[] = {fresh[b][k[b]], fresh[c][k[c]]};
+      return (was[0] * was[1] + is[0] * is[1]) / 3 + (was[0] * is[1] + is[0] * was[1]) / 6;
+    }
+  }
   static void store(const Quad& numbers, double* to) { std::memcpy(to, &numbers, sizeof(numbers)); }
   /// The weights of the displacements through the faces of a cell. At the first call, all sums of the cell become 0.
   Vec<D>& weightsOf(const Index<D>& cell) {
@@ -198,14 +212,7 @@ void Sweeps<D>::add(const Index<D>& origin, const ParticleBox<D>& before, const 
     Vec<D>& weights = weightsOf(cell);
     for (int a = 0; a < D; ++a) {
       if (up[a][k[a]] == 0) continue;
-      double rising = 1, falling = 1;
-      for (int d = 0; d < D; ++d) {
-        if (d == a) continue;
-        const double was = old[d][k[d]], is = fresh[d][k[d]];
-        rising *= d < a ? is : was;
-        falling *= d < a ? was : is;
-      }
-      const double volume = 0.5 * up[a][k[a]] * (rising + falling);
+      const double volume = up[a][k[a]] * meanSection(old, fresh, k, a);
       faces_.volume[cell][a] += volume;
       if (std::abs(volume) < roundOffOfEdges) continue;
       faces_.shift[cell][a] += std::abs(volume) * (after.middle[a] - before.middle[a]);
