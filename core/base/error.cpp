@@ -48,7 +48,10 @@ const Location& placeOf(std::initializer_list<const Location*> parts, const Loca
   return found == parts.end() ? tag : **found;
 }
 
-std::string Location::text() const { return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file; }
+std::string Location::text() const {
+  if (line <= 0) return file;
+  return column > 0 ? fmt::format("{}:{}:{}", file, line, column) : fmt::format("{}:{}", file, line);
+}
 
 std::string InputProblem::text() const {
   std::string prefix = where.text();

@@ -23,11 +23,11 @@ enum class ExitCode : int {
 struct Location {
   std::string file;  ///< file name as the user gave it, or `--set PATH=VALUE` for an override
   int line = 0;      ///< line number, from 1; 0 if the location is not a line of a file
-  int column = 0;    ///< column number in bytes, from 1
+  int column = 0;    ///< column number in bytes, from 1; 0 if the whole line is meant
 
   /// Whether the location is an option on the command line.
   bool isOption() const { return line == 0 && !file.empty(); }
-  /// Returns `file:line:column`, or `file` alone if there is no line.
+  /// Returns `file:line:column`, `file:line` if there is no column, or `file` alone if there is no line.
   std::string text() const;
 };
 

@@ -85,7 +85,7 @@ bool isPath(const pugi::xml_node& xml) {
   const std::string_view name = xml.name(), parent = xml.parent().name();
   return name == "file" || name == "PrescribedDeformationFile" || name == "InsertParticlesFile" ||
          name == "cz_filename" || ((parent == "contact" || parent == "c2") && name == "filename") ||
-         ((parent == "tri" || parent == "line_segment") && name == "name");
+         ((parent == "tri" || parent == "line_segment" || parent == "file") && name == "name");
 }
 
 /// Replaces the text of a tag by the absolute path of the file that it names. A scene that has been moved together with

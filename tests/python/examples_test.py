@@ -127,6 +127,22 @@ class TractionSeparation(InAFolder):
         self.assertGreater(pathlib.Path("law.png").stat().st_size, 1000)
 
 
+class ParticlesOfImage(InAFolder):
+    EXAMPLE = LIBRARY / "examples/particles_of_image.py"
+
+    def written(self, *words):
+        subprocess.run([sys.executable, self.EXAMPLE, "particles.pts", *words], capture_output=True, check=True)
+        return pathlib.Path("particles.pts").read_text()
+
+    def test_of_the_scene_are_written_by_it(self):
+        self.assertEqual(self.written(), (LIBRARY.parents[1] / "ups/solid/crushed_foam.pts").read_text())
+
+    def test_are_the_bright_voxels_with_their_gray(self):
+        np.save("scan.npy", np.arange(8.).reshape(2, 2, 2))
+        words = self.written("--image", "scan.npy", "--voxel", "2", "--threshold", "5", "--gray")
+        self.assertEqual(words, "3 3 1 6\n3 3 3 7\n")
+
+
 @unittest.skipIf(WITHOUT["scipy"], WITHOUT["scipy"])
 class Calibration(InAFolder):
     def test_finds_the_yield_stress_that_a_length_was_made_with(self):

@@ -255,9 +255,9 @@ class Messages(RefusedSceneTest):
         self.assert_refused(text, "needs a grid of one box: cohesive zones would glue bodies through walls")
 
     def test_name_the_line_of_the_file(self):
-        for zones, sentence in ((ZONES + "1 2\n", "glued_blocks.txt:9:0: found 2 numbers, expected 12"),
+        for zones, sentence in ((ZONES + "1 2\n", "glued_blocks.txt:9: found 2 numbers, expected 12"),
                                 (ZONES.replace("0 1 0 1 0 0 0 1\n", "0 0 1 1 0 0 0 1\n", 1),
-                                 "glued_blocks.txt:1:0: the normal has a component along z")):
+                                 "glued_blocks.txt:1: the normal has a component along z")):
             self.zones = zones
             done = run(self.scene(TEXT))
             self.assertEqual(done.code, 3, done.err)

@@ -94,8 +94,8 @@ class Messages(RefusedSceneTest):
         self.file = "\n".join([lines[0], "", "0.1 fast 0 0", *lines[1:], "5 6"])
         done = run(self.scene(text))
         self.assertEqual(done.code, 3)
-        self.assertIn("driven_disc.txt:3:0: found 'fast', expected a number", done.err)
-        self.assertIn(f"driven_disc.txt:{len(lines) + 3}:0: found 2 numbers, expected 10: time, velocity, centre and "
+        self.assertIn("driven_disc.txt:3: found 'fast', expected a number", done.err)
+        self.assertIn(f"driven_disc.txt:{len(lines) + 3}: found 2 numbers, expected 10: time, velocity, centre and "
                       "angular velocity", done.err)
 
     def scene(self, text):

@@ -52,6 +52,10 @@ class PlacedBodies(unittest.TestCase):
         self.assertEqual(report["fingerprint"], expected)
 
     def test_what_cannot_be_is_refused(self):
+        wide = run(SCENE, BOXES + "affineTransformation_A0=[3,0,0]", BOXES + "affineTransformation_A1=[0,1,0]",
+                   "MPM/interpolator=gimp")
+        self.assertEqual(wide.code, 3)
+        self.assertIn("m is 1.5 cells wide along x, but with <interpolator> gimp at most one cell", wide.err)
         for change, sentence in ((BOXES + "affineTransformation_b=[1.1,0.2,0]", "outside the grid"),
                                  (BOXES + "affineTransformation_A0=[-0.8,0.6,0]", "determinant of A is not positive")):
             result = run(SCENE, change)

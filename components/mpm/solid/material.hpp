@@ -4,6 +4,7 @@
 #include "components/mpm/solid/damage/damage.hpp"
 #include "components/mpm/solid/damage/erosion.hpp"
 #include "components/mpm/solid/grains/grain.hpp"
+#include "components/mpm/solid/listed_particles.hpp"
 #include "components/mpm/solid/placement.hpp"
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
@@ -22,9 +23,12 @@ struct Body {
   int levels = 1;  ///< number of particle sizes that fill the shape; negative: no particle extends beyond the shape
   /// Rows of A, and b: the body's particles start at A X + b [m] instead of X.
   Vec3 affineRow0 = Vec3::UnitX(), affineRow1 = Vec3::UnitY(), affineRow2 = Vec3::UnitZ(), affineShift = Vec3::Zero();
+  std::shared_ptr<const ListedParticles> list;  ///< its particles, which are also its shape, if a file lists them
   std::shared_ptr<const Seeds> seeds;  ///< initial positions of the body's particles; null: in equal parts of cells
 
   Matrix3 affineMatrix() const;
+  /// The point X of the shape [m] that starts at `point` = A X + b.
+  Vec3 inShape(const Vec3& point) const;
 };
 
 /// The initial position of the k-th particle of a cell [m], rounded as in Uintah, because the last digit of a point on

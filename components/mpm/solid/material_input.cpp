@@ -11,6 +11,7 @@
 #include "components/mpm/solid/contact/contact_input.hpp"
 #include "components/mpm/solid/damage/damage_input.hpp"
 #include "components/mpm/solid/grains/grain_input.hpp"
+#include "core/input/geometry/smooth_cylinder.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -126,11 +127,58 @@ void describeModels(std::ostream& out, int indent) {
 void checkAffine(const Body& body, const Element& element, Diagnostics& diagnostics) {
   if (!(body.affineMatrix().determinant() > 0))
     diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A is not positive");
+  const bool isTransformed = body.affineMatrix() != Matrix3::Identity() || !body.affineShift.isZero(0);
+  if (isTransformed && dynamic_cast<const input::SmoothCylinder*>(body.shape.get()))
+    diagnostics.error(element, "affineTransformation_…: a smoothcyl has the places of its rings; remove it");
+}
+
+/// Reads the shape of a body, or the file that lists its particles.
+void readShape(Body& body, const Element& element, Diagnostics& diagnostics) {
+  const auto list = element.child("file");
+  if (!list) {
+    body.shape = input::readGeometry(element, diagnostics);
+    return;
+  }
+  body.list = readListedParticles(*list, diagnostics);
+  body.shape = body.list;
+  std::vector<std::string> others = input::geometryNames();
+  for (const char* tag : {"numLevelsParticleFilling", "affineTransformation_A0", "affineTransformation_A1",
+                          "affineTransformation_A2", "affineTransformation_b"})
+    others.emplace_back(tag);
+  for (const std::string& name : others)
+    if (const auto other = element.child(name))
+      diagnostics.error(*other,
+                        "<file> lists all particles of this body; remove this tag, or put it into a "
+                        "<geom_object> of its own");
+  if (element.children("file").size() > 1)
+    diagnostics.error(element.children("file")[1], "put a second <file> into a <geom_object> of its own");
+}
+
+std::vector<std::string> shapeNames() {
+  std::vector<std::string> names = input::geometryNames();
+  names.emplace_back("file");
+  return names;
+}
+
+void describeShapes(std::ostream& out, int indent) {
+  input::describeGeometry(out, indent);
+  listedParticlesSchema().describe(out, indent);
+}
+
+std::vector<input::TagForm> shapeForms() {
+  std::vector<input::TagForm> forms = input::geometryForms();
+  forms.push_back(input::sectionForm({"file"}, [] {
+    return std::vector<input::Alternative>{{&listedParticlesSchema(), {}}};
+  }));
+  return forms;
 }
 
 Schema<Body> bodyTags() {
   Schema<Body> tags("geom_object", "A body of material at the start.");
-  input::addShape(tags, &Body::where, &Body::shape, "shape of the body; several shapes form their union")
+  tags.location(&Body::where)
+      .custom("shape", readShape, shapeNames(),
+              "shape of the body; several shapes form their union. Or a file that lists its particles", describeShapes)
+      .forms(shapeForms(), 1)
       .required("res", &Body::particlesPerCell, "1", "particles per cell along x, y, z", input::between(1, 32))
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",

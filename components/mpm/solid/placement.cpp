@@ -4,6 +4,9 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
+#include <limits>
+
 #include "components/mpm/solid/material.hpp"
 #include "core/input/geometry/smooth_cylinder.hpp"
 
@@ -13,6 +16,12 @@ Matrix3 Body::affineMatrix() const {
   Matrix3 rows;
   rows << affineRow0.transpose(), affineRow1.transpose(), affineRow2.transpose();
   return rows;
+}
+
+Vec3 Body::inShape(const Vec3& point) const {
+  const Matrix3 matrix = affineMatrix();
+  if (matrix == Matrix3::Identity()) return point - affineShift;
+  return matrix.inverse() * (point - affineShift);
 }
 
 namespace {
@@ -77,11 +86,20 @@ std::vector<Filling> fill(const Level& level, const Body& body, const Index<D>& 
   return particles;
 }
 
+/// Whether a point is in the one cell along each axis along which the grid has only one.
+bool isInThinAxes(const Level& level, const Vec3& point) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (level.domain().resolution[axis] == 1 && level.cellWidth(axis) > 0 &&
+        !(point[axis] >= level.domain().lower[axis] && point[axis] <= level.domain().upper[axis]))
+      return false;
+  return true;
+}
+
 /// Puts a seed into the cell that contains it.
 template <int D>
 void add(const Level& level, const Body& body, const Seed& seed, Seeds& seeds) {
   const Index<D> cell = level.cellOf<D>(level.reduce<D>(seed.at));
-  if (!level.isInside<D>(cell))
+  if (!level.isInside<D>(cell) || (body.list && !isInThinAxes(level, seed.at)))
     throw InputError({{body.where, "geom_object",
                        fmt::format("a particle would start at ({:g}, {:g}, {:g}) m, outside the grid", seed.at[0],
                                    seed.at[1], seed.at[2])}});
@@ -111,15 +129,62 @@ void seedCylinder(const Level& level, const Body& body, const input::SmoothCylin
     add<D>(level, body, {one.at, inverse.asDiagonal() * one.edges, one.volume / level.cellVolume()}, seeds);
 }
 
+/// The domain and volume of a listed particle; `at` is not set.
+template <int D>
+Seed sizeOf(const Level& level, const Body& body, std::size_t k) {
+  const ListedParticles& list = *body.list;
+  Seed seed = partOfCell<D>(level, body.particlesPerCell);
+  if (!list.edges.empty()) {
+    Matrix3 edges = list.edges[k];
+    if (edges.determinant() < 0) edges.col(1).swap(edges.col(2));
+    seed.domain = inCells(level).asDiagonal() * edges;
+    seed.volume = edges.determinant() / level.cellVolume();
+  }
+  if (list.volume.empty()) return seed;
+  seed.volume = list.volume[k] / level.cellVolume();
+  if (!list.edges.empty()) return seed;
+  double cell = 1;
+  for (int d = 0; d < D; ++d) cell *= level.spacing(d);
+  for (int d = 0; d < D; ++d)
+    seed.domain(level.axis(d), level.axis(d)) = std::pow(seed.volume * cell, 1.0 / D) / level.spacing(d);
+  return seed;
+}
+
+/// Half the extent of a particle along x, y, z [m]; infinite along axes of which the grid has one cell.
+template <int D>
+Vec3 halfExtent(const Level& level, const Seed& seed) {
+  Vec3 half = Vec3::Constant(std::numeric_limits<double>::infinity());
+  for (int d = 0; d < D; ++d)
+    half[level.axis(d)] = 0.5 * level.spacing(d) * seed.domain.row(level.axis(d)).cwiseAbs().sum();
+  return half;
+}
+
+template <int D>
+void seedList(const Level& level, Body& body, Seeds& seeds) {
+  const auto list = std::make_shared<ListedParticles>(*body.list);
+  std::vector<Vec3> half;
+  for (std::size_t k = 0; k < list->at.size(); ++k) {
+    Seed seed = sizeOf<D>(level, body, k);
+    seed.at = list->at[k];
+    seed.listed = k;
+    add<D>(level, body, seed, seeds);
+    if (k == 0 || !list->edges.empty() || !list->volume.empty()) half.push_back(halfExtent<D>(level, seed));
+  }
+  list->giveBoxes(std::move(half));
+  body.shape = body.list = list;
+}
+
 template <int D>
 void place(const Level& level, Body& body) {
   const auto* cylinder = dynamic_cast<const input::SmoothCylinder*>(body.shape.get());
-  if (!cylinder && std::abs(body.levels) <= 1 && body.affineMatrix() == Matrix3::Identity() &&
+  if (!cylinder && !body.list && std::abs(body.levels) <= 1 && body.affineMatrix() == Matrix3::Identity() &&
       body.affineShift.isZero(0))
     return;
   auto seeds = std::make_shared<Seeds>();
   if (cylinder)
     seedCylinder<D>(level, body, *cylinder, *seeds);
+  else if (body.list)
+    seedList<D>(level, body, *seeds);
   else
     forEach<D>(level.cells(), [&](const Index<D>& cell) { seedFilling<D>(level, body, cell, *seeds); });
   body.seeds = seeds;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "components/mpm/solid/tensor.hpp"
@@ -14,9 +15,10 @@ struct Body;
 
 /// A particle that does not start at the centre of one of the equal parts of a cell.
 struct Seed {
-  Vec3 at = Vec3::Zero();            ///< position [m]
-  Matrix3 domain = Matrix3::Zero();  ///< edges of the particle in cells, one per column
-  double volume = 0;                 ///< volume of the particle, in cells
+  Vec3 at = Vec3::Zero();                            ///< position [m]
+  Matrix3 domain = Matrix3::Zero();                  ///< edges of the particle in cells, one per column
+  double volume = 0;                                 ///< volume of the particle, in cells
+  std::optional<std::size_t> listed = std::nullopt;  ///< its number in the list of the body's particles, if it has one
 };
 
 /// The particles of a body, by the index of the cell in which they start.
@@ -49,7 +51,8 @@ Vec<D> extentOf(const Level& level, const Seed& seed) {
 }
 
 /// Finds the seeds of each body whose particles do not start in equal parts of cells: bodies with particles of several
-/// sizes, transformed bodies, and smooth cylinders. Throws InputError if a particle would start outside the grid.
+/// sizes, transformed bodies, smooth cylinders, and bodies whose particles a file lists. Throws InputError if a
+/// particle would start outside the grid.
 void placeParticles(const Level& level, std::vector<Body>& bodies);
 
 }  // namespace tushar::mpm::solid

@@ -1,5 +1,7 @@
 #include "components/mpm/solid/scene_input.hpp"
 
+#include <fmt/format.h>
+
 #include <set>
 
 #include "components/mpm/boundary_labels.hpp"
@@ -49,10 +51,37 @@ void settleSizes(Problem& problem) {
     }
 }
 
+/// Refuses particles wider than a cell, in which gimp does not find all nodes that they overlap.
+template <int D>
+void refuseWide(const Level& level, const Body& body) {
+  constexpr double widest = 1 + 1e-9;
+  for (const auto& [cell, seeds] : *body.seeds)
+    for (const Seed& seed : seeds) {
+      const Vec<D> extent = extentOf<D>(level, seed);
+      for (int d = 0; d < D; ++d)
+        if (extent[d] > widest)
+          throw InputError({{body.where, "geom_object",
+                             fmt::format("the particle at ({:g}, {:g}, {:g}) m is {:.3g} cells wide along {}, but with "
+                                         "<interpolator> gimp at most one cell is possible; cpdi has no such limit",
+                                         seed.at[0], seed.at[1], seed.at[2], extent[d], "xyz"[level.axis(d)])}});
+    }
+}
+
+void refuseWideParticles(const Level& level, const std::vector<Material>& materials) {
+  for (const Material& material : materials)
+    for (const Body& body : material.bodies) {
+      if (!body.seeds) continue;
+      if (level.dimension() == 1) refuseWide<1>(level, body);
+      if (level.dimension() == 2) refuseWide<2>(level, body);
+      if (level.dimension() == 3) refuseWide<3>(level, body);
+    }
+}
+
 }  // namespace
 
-void settleParticles(const Level& level, Problem& problem) {
+void settleParticles(const Level& level, Problem& problem, bool isGimp) {
   for (Material& material : problem.materials) placeParticles(level, material.bodies);
+  if (isGimp) refuseWideParticles(level, problem.materials);
   countParticles(level, problem.materials, problem.start.loads.surfaces);
   settleSizes(problem);
   problem.notes = notesOnBodies(level, problem);

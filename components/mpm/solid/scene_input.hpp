@@ -26,8 +26,9 @@ void checkHeat(const Problem& problem, const input::Element& root, input::Diagno
 /// Refuses heat flows through sides of the grid: solids do not know how much of a side they touch.
 void refuseHeatFlows(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
 
-/// Completes the settings that depend on the grid: number of particles at each load, their size, cell widths.
-void settleParticles(const Level& level, Problem& problem);
+/// Completes the settings that depend on the grid: number of particles at each load, their size, cell widths. Throws
+/// InputError if a particle starts outside the grid or, with the shape functions gimp, is wider than a cell.
+void settleParticles(const Level& level, Problem& problem, bool isGimp);
 
 /// Throws InputError if an axisymmetric scene, with its <MPM> at `where`, has cells on both sides of its axis.
 void refuseCellsAround(const Level& level, const Location& where);

@@ -245,7 +245,7 @@ const Schema<MpmSection>& mpmSchema() {
 }
 
 std::unique_ptr<Solids> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
-  settleParticles(level, problem);
+  settleParticles(level, problem, interpolator == Interpolator::gimp);
   placeZones(level, problem);
   problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   return makeSolids(interpolator, level.dimension(), problem);

@@ -294,7 +294,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   return [read, problem, where = root.child("MPM")->where()](const Level& level) {
     if (read.axisymmetric) refuseCellsAround(level, where);
     Problem settled = problem;
-    settleParticles(level, settled);
+    settleParticles(level, settled, read.gimp);
     if (read.axisymmetric)
       return read.gimp ? makeAxisymmetric<AxisymmetricGimpShape>(level, settled, read.method())
                        : makeAxisymmetric<AxisymmetricLinearShape>(level, settled, read.method());

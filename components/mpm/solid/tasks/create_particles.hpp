@@ -74,7 +74,12 @@ struct NewParticles {
            const Seed& seed) const {
     const Vec3 point = level.expandPoint<D>(at);
     x.push_back(at);
-    velocity.push_back(level.reduce<D>(body.velocity(point)));
+    const auto listed = [&](const auto& values, const auto& otherwise) {
+      return seed.listed && !values.empty() ? values[*seed.listed] : otherwise(point);
+    };
+    static const ListedParticles none;
+    const ListedParticles& list = body.list ? *body.list : none;
+    velocity.push_back(level.reduce<D>(listed(list.velocity, body.velocity)));
     displacement.push_back(Vec<D>::Zero());
     size.push_back(extentOf<D>(level, seed));
     domain.push_back(seed.domain);
@@ -86,8 +91,8 @@ struct NewParticles {
           {{body.where, "geom_object",
             fmt::format("the particle at ({:g}, {:g}, {:g}) m has {:g} kg, but <minimum_particle_mass> is {:g} kg",
                         point[0], point[1], point[2], mass.back(), start.leastMass)}});
-    temperature.push_back(body.temperature(point));
-    color.push_back(body.color);
+    temperature.push_back(listed(list.temperature, body.temperature));
+    color.push_back(listed(list.color, [&](const Vec3&) { return body.color; }));
     loads.push_back(loadsOn(level, start, material, body, seed.at));
     if (start.solution) deform(level, start, material, point);
   }
@@ -269,8 +274,9 @@ void startDeformation(const Patch& patch, const Material& material, const Start&
 }
 
 /// The initial stress of a particle [Pa]: if it starts under pressure, the stress that follows from its F and
-/// temperature [K], otherwise that of the model.
-inline Matrix3 startStress(const Material& material, const Matrix3& f, double temperature, double* state) {
+/// temperature [K], otherwise that of the model. Also gives the density of its strain energy [J/m^3], if requested.
+inline Matrix3 startStress(const Material& material, const Matrix3& f, double temperature, double* state,
+                           double* energyDensity = nullptr) {
   if (material.model->initialVolumeRatio() == 1) return material.model->initialStress();
   const Matrix3 zero = Matrix3::Zero();
   Matrix3 stress = zero;
@@ -281,8 +287,25 @@ inline Matrix3 startStress(const Material& material, const Matrix3& f, double te
   point.stress = &stress;
   point.state = state;
   point.waveSpeed = &waveSpeed;
+  point.strainEnergyDensity = energyDensity;
   material.model->updateStress(material.density, point);
   return stress;
+}
+
+/// Sets the initial strain energy, which is not 0 if the body starts under pressure.
+inline void startEnergy(const Patch&, const Material& material, ParticleView<const double> mass,
+                        ParticleView<const double> temperature, ParticleView<const Matrix3> deformation,
+                        ParticleView<double> energy) {
+  const bool isStressed = material.model->initialVolumeRatio() != 1;
+  std::vector<double> state(static_cast<std::size_t>(material.model->stateSize()), 0.0);
+  for (int p = 0; p < mass.owned(); ++p) {
+    double density = 0;
+    if (isStressed) {
+      if (!state.empty()) material.model->initialize(state.data(), Birth{});
+      startStress(material, deformation[p], temperature[p], state.data(), &density);
+    }
+    energy[p] = density * mass[p] / material.undeformedDensity();
+  }
 }
 
 /// Views of initial values of particles besides their position and mass; `state` contains the internal variables of the
@@ -340,8 +363,9 @@ void scheduleActuallyInitialize(TaskList& tasks, const std::vector<Material>& ma
   };
   atZero(p::externalForce<D>);
   atZero(p::viscosity);
-  atZero(p::strainEnergy);
   atZero(p::velocityGradient);
+  tasks.perMaterial("mpm::initializeStrainEnergy", startEnergy, materials, requiresNew(p::mass),
+                    requiresNew(p::temperature), requiresNew(p::deformationMeasure), computes(p::strainEnergy));
 }
 // Compiled in solids_of.cpp.
 extern template void scheduleActuallyInitialize<1>(TaskList&, const std::vector<Material>&, const Start&);
