@@ -35,7 +35,7 @@ struct StressPoints {
   double* waveSpeed = nullptr;          ///< wave speed [m/s]
   double* bulkSpeed = nullptr;          ///< bulk speed [m/s]; null if not requested
   double* temperatureChange = nullptr;  ///< temperature change [K]; null if not requested
-  /// Strain energy density [J/m^3], per volume at the start of the run; null if not requested.
+  /// Strain energy density [J/m^3], per volume at F = I; null if not requested.
   double* strainEnergyDensity = nullptr;
 
   bool wantsWaveSpeedAndEnergyOnly() const { return !stress && !bulkSpeed && !temperatureChange; }

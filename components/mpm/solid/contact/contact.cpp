@@ -131,7 +131,7 @@ void sumReaction(const Patch& patch, const Contact& contact, const Acceleration&
                  const Records& records, VectorSum& reaction) {
   const Vec<D> gravity = patch.level().reduce<D>(acceleration.gravity);
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
-    if (!isOwned<D>(patch, node) || !isAt<D>(contact, records, node)) return;
+    if (!countsOnce<D>(patch, node) || !isAt<D>(contact, records, node)) return;
     for (std::size_t m = 0; m < records.size(); ++m) {
       const NodeRecord& record = records[m][node];
       if (static_cast<int>(m) == contact.master || !contact.concerns(static_cast<int>(m)) || record[lane::mass] == 0)

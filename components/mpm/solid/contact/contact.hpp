@@ -146,4 +146,11 @@ bool isOwned(const Patch& patch, const Index<D>& node) {
   return true;
 }
 
+/// Whether sums over the nodes of the grid's cells count a node on this patch. Nodes beyond a symmetry plane do not
+/// count: their records are those of their mirror images.
+template <int D>
+bool countsOnce(const Patch& patch, const Index<D>& node) {
+  return isOwned<D>(patch, node) && patch.level().template isNodeInside<D>(node);
+}
+
 }  // namespace tushar::mpm::solid

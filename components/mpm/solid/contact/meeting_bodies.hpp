@@ -58,13 +58,13 @@ class MeetingPlaces {
       if (*count++ > 1) visit(node);
     });
   }
-  /// Calls `visit(node)` for each other node of the rows.
+  /// Calls `visit(node)` for each of these nodes in the rows, if `meet`, otherwise for each other node of the rows.
   template <class Visit>
-  void forEachOther(const data::TouchedRows& rows, Visit&& visit) const {
+  void forEachIn(const data::TouchedRows& rows, bool meet, Visit&& visit) const {
     rows.forEachRow(box_, [&](Index3 node, int end) {
       const std::uint16_t* count = bodies_.data() + box_.offset(node);
       for (; node[0] < end; ++node[0])
-        if (*count++ <= 1) visit(node);
+        if ((*count++ > 1) == meet) visit(node);
     });
   }
 

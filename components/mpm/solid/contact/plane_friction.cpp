@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "components/mpm/solid/contact/friction.hpp"
-#include "components/mpm/solid/contact/meeting_bodies.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 
 namespace tushar::mpm::solid {
@@ -81,15 +80,6 @@ Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda
   return solved<D + 1>(matrix, right);
 }
 
-/// Where bodies meet.
-template <int D>
-MeetingBodies<D> meetingBodies(const Records& records, const SeparatingPlanes<D>& planes) {
-  const data::TouchedRows all = data::TouchedRows::all(records.front().box());
-  RowsOfNodes rows;
-  for (const auto& plane : planes) rows.push_back(plane.x ? &touchedRows<D>(*plane.x, plane.ghostNodes) : &all);
-  return {rows, records};
-}
-
 /// Index of the material, of those present at a node, to which the plane there belongs; -1 if there is no plane.
 template <int D>
 int foremost(const SeparatingPlanes<D>& planes, std::span<const std::size_t> bodies, const Index<D>& node) {
@@ -132,9 +122,9 @@ bool meetsMaster(const Level& level, const Contact& contact, const Records& reco
 /// Calls `visit(node, m, touch)` for each body m that meets the master at a node and moves against it.
 template <int D, class Visit>
 void forEachTouch(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
-                  const SeparatingPlanes<D>& planes, Visit&& visit) {
+                  const SeparatingPlanes<D>& planes, const MeetingBodies<D>& meeting, Visit&& visit) {
   const auto motion = contact.prescribedMotion(time);
-  meetingBodies<D>(records, planes).forEachNode([&](const Index<D>& node, std::span<const std::size_t> bodies) {
+  meeting.forEachNode([&](const Index<D>& node, std::span<const std::size_t> bodies) {
     const int first = foremost<D>(planes, bodies, node);
     if (first < 0 || isExcluded<D>(contact, records, node)) return;
     const Vec<D> moving = masterVelocity<D>(patch, contact, motion, dt, records, node);
@@ -148,6 +138,13 @@ void forEachTouch(const Patch& patch, const Contact& contact, double time, doubl
 }
 
 }  // namespace
+
+template <int D>
+MeetingBodies<D> meetingAtPlanes(const Records& records, const SeparatingPlanes<D>& planes) {
+  RowsOfNodes rows;
+  for (const auto& plane : planes) rows.push_back(&touchedRows<D>(*plane.x, plane.ghostNodes));
+  return {rows, records};
+}
 
 template <int D>
 Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double width) {
@@ -171,9 +168,9 @@ Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double w
 
 template <int D>
 void slideAlongPlanes(const Level& level, const Contact& contact, const Records& records,
-                      const SeparatingPlanes<D>& planes) {
+                      const SeparatingPlanes<D>& planes, const MeetingBodies<D>& meeting) {
   const std::vector<bool> takesPart = contact.takingPart(records.size());
-  meetingBodies<D>(records, planes).forEachNode([&](const Index<D>& node, std::span<const std::size_t> bodies) {
+  meeting.forEachNode([&](const Index<D>& node, std::span<const std::size_t> bodies) {
     const int first = foremost<D>(planes, bodies, node);
     if (first < 0) return;
     Vec<D> momentum = Vec<D>::Zero();
@@ -201,8 +198,8 @@ void slideAlongPlanes(const Level& level, const Contact& contact, const Records&
 
 template <int D>
 void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
-                   const SeparatingPlanes<D>& planes) {
-  forEachTouch<D>(patch, contact, time, dt, records, planes,
+                   const SeparatingPlanes<D>& planes, const MeetingBodies<D>& meeting) {
+  forEachTouch<D>(patch, contact, time, dt, records, planes, meeting,
                   [&](const Index<D>& node, std::size_t m, const Touch<D>& touch) {
                     const Vec<D> change = frictionImpulse<D>(touch, contact.friction).change;
                     setLanes<D>(records[m][node], lane::velocity, lanes<D>(records[m][node], lane::velocity) + change);
@@ -217,32 +214,40 @@ void slideOnMaster(const Patch& patch, const Contact& contact, double time, doub
 
 template <int D>
 void sumSlidingReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double time,
-                        double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction) {
+                        double dt, const Records& records, const SeparatingPlanes<D>& planes,
+                        const MeetingBodies<D>& meeting, VectorSum& reaction) {
   const Vec<D> gravity = patch.level().reduce<D>(acceleration.gravity);
-  forEachTouch<D>(patch, contact, time, dt, records, planes, [&](const Index<D>& node, std::size_t m, const Touch<D>&) {
-    if (!isOwned<D>(patch, node)) return;
-    const NodeRecord& record = records[m][node];
-    reaction.add(patch.level().expandDirection<D>(heldForce<D>(record, gravity, acceleration, dt)));
-  });
+  forEachTouch<D>(patch, contact, time, dt, records, planes, meeting,
+                  [&](const Index<D>& node, std::size_t m, const Touch<D>&) {
+                    if (!countsOnce<D>(patch, node)) return;
+                    const NodeRecord& record = records[m][node];
+                    reaction.add(patch.level().expandDirection<D>(heldForce<D>(record, gravity, acceleration, dt)));
+                  });
 }
 
+template MeetingBodies<1> meetingAtPlanes<1>(const Records&, const SeparatingPlanes<1>&);
 template Vec<1> separatingNormal<1>(const std::vector<SidedParticle<1>>&, double);
+template MeetingBodies<2> meetingAtPlanes<2>(const Records&, const SeparatingPlanes<2>&);
 template Vec<2> separatingNormal<2>(const std::vector<SidedParticle<2>>&, double);
+template MeetingBodies<3> meetingAtPlanes<3>(const Records&, const SeparatingPlanes<3>&);
 template Vec<3> separatingNormal<3>(const std::vector<SidedParticle<3>>&, double);
-template void slideAlongPlanes<1>(const Level&, const Contact&, const Records&, const SeparatingPlanes<1>&);
-template void slideAlongPlanes<2>(const Level&, const Contact&, const Records&, const SeparatingPlanes<2>&);
-template void slideAlongPlanes<3>(const Level&, const Contact&, const Records&, const SeparatingPlanes<3>&);
-template void slideOnMaster<1>(const Patch&, const Contact&, double, double, const Records&,
-                               const SeparatingPlanes<1>&);
-template void slideOnMaster<2>(const Patch&, const Contact&, double, double, const Records&,
-                               const SeparatingPlanes<2>&);
-template void slideOnMaster<3>(const Patch&, const Contact&, double, double, const Records&,
-                               const SeparatingPlanes<3>&);
+template void slideAlongPlanes<1>(const Level&, const Contact&, const Records&, const SeparatingPlanes<1>&,
+                                  const MeetingBodies<1>&);
+template void slideAlongPlanes<2>(const Level&, const Contact&, const Records&, const SeparatingPlanes<2>&,
+                                  const MeetingBodies<2>&);
+template void slideAlongPlanes<3>(const Level&, const Contact&, const Records&, const SeparatingPlanes<3>&,
+                                  const MeetingBodies<3>&);
+template void slideOnMaster<1>(const Patch&, const Contact&, double, double, const Records&, const SeparatingPlanes<1>&,
+                               const MeetingBodies<1>&);
+template void slideOnMaster<2>(const Patch&, const Contact&, double, double, const Records&, const SeparatingPlanes<2>&,
+                               const MeetingBodies<2>&);
+template void slideOnMaster<3>(const Patch&, const Contact&, double, double, const Records&, const SeparatingPlanes<3>&,
+                               const MeetingBodies<3>&);
 template void sumSlidingReaction<1>(const Patch&, const Contact&, const Acceleration&, double, double, const Records&,
-                                    const SeparatingPlanes<1>&, VectorSum&);
+                                    const SeparatingPlanes<1>&, const MeetingBodies<1>&, VectorSum&);
 template void sumSlidingReaction<2>(const Patch&, const Contact&, const Acceleration&, double, double, const Records&,
-                                    const SeparatingPlanes<2>&, VectorSum&);
+                                    const SeparatingPlanes<2>&, const MeetingBodies<2>&, VectorSum&);
 template void sumSlidingReaction<3>(const Patch&, const Contact&, const Acceleration&, double, double, const Records&,
-                                    const SeparatingPlanes<3>&, VectorSum&);
+                                    const SeparatingPlanes<3>&, const MeetingBodies<3>&, VectorSum&);
 
 }  // namespace tushar::mpm::solid

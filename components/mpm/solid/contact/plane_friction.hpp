@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/contact/meeting_bodies.hpp"
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
 
@@ -33,7 +34,7 @@ struct SeparatingPlane {
   /// the plane belongs to the body, otherwise that of the nearest particle.
   std::optional<NodeView<const double>> prominence;
   std::optional<NodeView<const double>> color;  ///< mass-weighted mean of its p.color
-  /// The particles, which touch the nodes up to `ghostNodes` layers around their cells; without them, any node counts.
+  /// The particles of the body, which touch the nodes up to `ghostNodes` layers around their cells.
   std::optional<ParticleView<const Vec<D>>> x = std::nullopt;
   int ghostNodes = 0;
 
@@ -50,6 +51,10 @@ struct SeparatingPlane {
 template <int D>
 using SeparatingPlanes = std::vector<SeparatingPlane<D>>;
 
+/// The nodes at which bodies with planes meet.
+template <int D>
+MeetingBodies<D> meetingAtPlanes(const Records& records, const SeparatingPlanes<D>& planes);
+
 /// The value of the prominence if a body has no surface particles near a node.
 inline constexpr double noProminence = -std::numeric_limits<double>::max();
 
@@ -58,17 +63,18 @@ inline constexpr double noProminence = -std::numeric_limits<double>::max();
 /// mass. Momentum is conserved.
 template <int D>
 void slideAlongPlanes(const Level& level, const Contact& contact, const Records& records,
-                      const SeparatingPlanes<D>& planes);
+                      const SeparatingPlanes<D>& planes, const MeetingBodies<D>& meeting);
 
 /// Stops bodies that overlap the master and approach it, and slows their slip by friction. Then gives the master its
 /// prescribed velocity, if it has one.
 template <int D>
 void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
-                   const SeparatingPlanes<D>& planes);
+                   const SeparatingPlanes<D>& planes, const MeetingBodies<D>& meeting);
 
 /// Adds to `reaction` the force [N] that holds the bodies that slideOnMaster will stop, as sumReaction does.
 template <int D>
 void sumSlidingReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double time,
-                        double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction);
+                        double dt, const Records& records, const SeparatingPlanes<D>& planes,
+                        const MeetingBodies<D>& meeting, VectorSum& reaction);
 
 }  // namespace tushar::mpm::solid

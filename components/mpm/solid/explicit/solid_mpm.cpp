@@ -225,7 +225,7 @@ void SolidMpm<D>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<N
 template <int D>
 void SolidMpm<D>::scheduleShowOnGrid(TaskList& tasks, Reads stressed) const {
   solid::scheduleShowOnGrid(tasks, bodies_->shaped, problem_.materials, problem_.method.commonSize, keepsSizes(),
-                            stressed(p::volume, shapes_.reach), stressed(p::stress, shapes_.reach));
+                            stressed(p::volume, shapes_.reach), stressed(p::stress, shapes_.reach), this->isViscous());
 }
 
 /// Adds the tasks that find the planes along which bodies slide.

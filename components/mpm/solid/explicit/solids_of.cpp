@@ -229,7 +229,7 @@ void SolidsOf<D>::scheduleTemperatureRate(TaskList& tasks) const {
 template <int D>
 void SolidsOf<D>::scheduleDiagnostics(TaskList& tasks) const {
   const Reads stressed = keeps_stress_ ? readsOld : readsNew;
-  scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes());
+  scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes(), nullptr);
   for (std::size_t k = 0; k < total::work.size(); ++k)
     tasks.perMaterial("mpm::sumWork", sumWork, problem_.materials, with(static_cast<int>(k)), requiresOld(p::work),
                       computes(total::work[k]));
@@ -244,14 +244,17 @@ void SolidsOf<D>::scheduleDiagnostics(TaskList& tasks) const {
                       computes(p::stress));
   }
   scheduleShowOnGrid(tasks, stressed);
-  scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, stressed(p::volume),
-                            stressed(p::stress));
+  scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, stressed(p::volume), stressed(p::stress),
+                            isViscous());
   tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, stressed(p::volume), computes(total::volume));
 }
 
-template void scheduleTotals<1>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
-template void scheduleTotals<2>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
-template void scheduleTotals<3>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
+template void scheduleTotals<1>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes,
+                                const ParticleLabel<Vec<1>>*);
+template void scheduleTotals<2>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes,
+                                const ParticleLabel<Vec<2>>*);
+template void scheduleTotals<3>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes,
+                                const ParticleLabel<Vec<3>>*);
 
 template void scheduleActuallyInitialize<1>(TaskList&, const std::vector<Material>&, const Start&);
 template void scheduleActuallyInitialize<2>(TaskList&, const std::vector<Material>&, const Start&);

@@ -71,7 +71,7 @@ class NodalHeat {
       for (std::size_t m = 0; m < materials_.size(); ++m) {
         const HeatedParticles<D>& heated = particles_[p][m];
         shapes_.forEachTouched(*patches_[p], heated.placed, common_size_, [&](int k, Touched touched) {
-          const double mass = heated.mass[k], volume = mass / materials_[m].density;
+          const double mass = heated.mass[k], volume = mass / materials_[m].undeformedDensity();
           const Matrix3& f = heated.deformation[k];
           const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
           visit(Point{materials_[m], mass, heated.temperature[k], volume * f.determinant(), carried}, touched);

@@ -113,11 +113,12 @@ void ImplicitMpm<D>::scheduleHeat(TaskList& tasks) const {
 
 template <int D>
 void ImplicitMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
-  scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes);
-  tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, requiresOld(p::volume),
-                    computes(total::volume));
   tasks.perMaterial("impm::findDeformedPosition", findDeformedPosition<D>, problem_.materials, requiresOld(p::x<D>),
                     when(!how_.resetsGrid, requiresOld(p::displacement<D>)), computes(p::deformedPosition<D>));
+  scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes,
+                    how_.resetsGrid ? nullptr : &p::deformedPosition<D>);
+  tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, requiresOld(p::volume),
+                    computes(total::volume));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
   const int reach = shapes_->shaped.shape.reach;
   scheduleShowOnGrid(tasks, shapes_->shaped, problem_.materials, problem_.method.commonSize, keepsSizes,

@@ -79,7 +79,7 @@ class PointStates {
       group.material->model->updateStress(group.material->density, points);
       if (group.newState) std::copy_n(points.state, points.count * state_size_, group.newState + from * state_size_);
       for (int k = 0; k < points.count && group.strainEnergy; ++k)
-        group.strainEnergy[from + k] = energyDensity[k] * group.mass[from + k] / group.material->density;
+        group.strainEnergy[from + k] = energyDensity[k] * group.mass[from + k] / group.material->undeformedDensity();
     });
   }
   /// Calls `visit(k, tangent)` with dP/dF of the k-th point of the group.
@@ -100,7 +100,7 @@ class PointStates {
     double start = 0, now = 0;
     const bool shares = sharesVolume(run);
     for (int k = run.from; k < run.from + run.count && shares; ++k) {
-      const double volume = run.group->mass[k] / run.group->material->density;
+      const double volume = run.group->mass[k] / run.group->material->undeformedDensity();
       start += volume;
       now += volume * deformation[run.group->first + k].determinant();
     }

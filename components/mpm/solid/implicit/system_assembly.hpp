@@ -310,7 +310,7 @@ void ImplicitSystem<D>::addInternalForce(const PointRun& run, std::span<double> 
   for (int p = run.from; p < run.from + run.count; ++p) {
     const std::size_t at = group.first + p;
     const Matrix3 step = Matrix3::Identity() + states_.gradient[at];
-    const double volume = group.mass[p] / group.material->density * states_.deformation[at].determinant();
+    const double volume = group.mass[p] / group.material->undeformedDensity() * states_.deformation[at].determinant();
     const Matrix3 stress = volume * states_.stress[at] * step.inverse().transpose();
     Eigen::Matrix<double, D, D> reduced;
     for (int i = 0; i < D; ++i)

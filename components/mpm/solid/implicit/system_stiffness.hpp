@@ -39,7 +39,7 @@ auto ImplicitSystem<D>::spatialTangent(const PointGroup& group, int k, const Mat
   constexpr int most = D * D + 1;
   const int count = hasHoop ? most : D * D;
   const Matrix3& f = group.oldDeformation[k];
-  const double factor = group.mass[k] / group.material->density / states_.stretch[group.first + k];
+  const double factor = group.mass[k] / group.material->undeformedDensity() / states_.stretch[group.first + k];
   std::array<int, most> first, second;  // the axes of each component; the last is the hoop strain
   for (int c = 0; c < D * D; ++c) {
     first[c] = sceneAxis<D>(map_.level(), c / D);
@@ -128,7 +128,8 @@ auto ImplicitSystem<D>::volumeForce(const PointGroup& group, int k, const Matrix
   const Matrix3 nominal = f.determinant() * states_.stress[at] * f.inverse().transpose();
   const Vector9 along = tangent * Eigen::Map<const Vector9>(f.data()) / states_.stretch[at];
   const Matrix3 q = (Matrix3(Eigen::Map<const Matrix3>(along.data())) - 2 * nominal) / 3;
-  return contracted(slopes, group.mass[k] / group.material->density * (q * group.oldDeformation[k].transpose()));
+  return contracted(slopes,
+                    group.mass[k] / group.material->undeformedDensity() * (q * group.oldDeformation[k].transpose()));
 }
 
 template <int D>

@@ -116,10 +116,10 @@ Vec3 normalAt(const Surface& surface, const Vec3& point) {
 }
 
 bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point) {
-  const Vec3 spacing = particleSpacing(level, body);
+  const Vec3 spacing = particleSpacing(level, body), place = body.inShape(point);
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0})
-      if (level.domain().resolution[axis] > 1 && !body.shape->contains(point + side * spacing[axis] * Vec3::Unit(axis)))
+      if (level.domain().resolution[axis] > 1 && !body.shape->contains(place + side * spacing[axis] * Vec3::Unit(axis)))
         return true;
   return false;
 }

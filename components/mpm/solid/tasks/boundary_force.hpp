@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
@@ -8,19 +9,33 @@
 namespace tushar::mpm::solid {
 
 /// Measures the force of a body on a side of the grid, including its inner sides, - sum_i f_i over the nodes of the
-/// side, and the area of the side that the body covers, 2 sum_i V_i / h. showForce computes f_i and V_i. Sides normal
-/// to axes that the grid does not use have no nodes.
+/// side, and the area of the side that the body covers, 2 sum_i V_i / h. showForce computes f_i and V_i. Functions that
+/// reach beyond the side give forces to nodes there, too: the side holds them, if it prescribes the velocity; a
+/// symmetry plane holds their normal components twice, since the mirror image gives the nodes in front the opposite
+/// forces. Sides normal to axes that the grid does not use have no nodes.
 template <int D>
-void measureBoundary(const Patch& patch, const Material&, int face, NodeView<const Vec<D>> force,
+void measureBoundary(const Patch& patch, const Material& material, int face, NodeView<const Vec<D>> force,
                      NodeView<const double> volume, VectorSum& total, Sum& area) {
+  const Level& level = patch.level();
   for (int d = 0; d < D; ++d) {
     const int side = face % 2;
-    if (patch.level().axis(d) != face / 2) continue;
+    if (level.axis(d) != face / 2) continue;
+    const bool isPlane = level.isSymmetry(d, side, material.index);
+    const auto given = level.boundary(d, side, boundary::velocity, material.index);
+    grid::forEachBoxBeyond(patch, d, side, [&](const Box& nodes, int) {
+      if (!isPlane && !(given && given->isDirichlet())) return;
+      forEach<D>(nodes.intersect(force.box()), [&](const Index<D>& node) {
+        if (!isOwned<D>(patch, node)) return;
+        Vec<D> held = force[node];
+        if (isPlane) held = 2 * held[d] * Vec<D>::Unit(d);
+        total.add(-level.expandDirection<D>(held));
+      });
+    });
     grid::forEachBoxOnSide(patch, d, side, [&](const Box& nodes) {
       forEach<D>(nodes, [&](const Index<D>& node) {
         if (!isOwned<D>(patch, node)) return;
-        total.add(-patch.level().expandDirection<D>(force[node]));
-        area.add(2 * volume[node] * patch.level().inverseSpacing(d));
+        total.add(-level.expandDirection<D>(force[node]));
+        area.add(2 * volume[node] * level.inverseSpacing(d));
       });
     });
   }
@@ -29,24 +44,31 @@ void measureBoundary(const Patch& patch, const Material&, int face, NodeView<con
 /// Measures force and area on a side normal to an axis that the grid does not use; the stress of every particle acts on
 /// this side.
 inline void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
-                                ParticleView<const Matrix3> stress, VectorSum& total, Sum& area) {
+                                ParticleView<const Matrix3> stress,
+                                const std::optional<ParticleView<const double>>& viscosity, VectorSum& total,
+                                Sum& area) {
   const double width = patch.level().cellWidth(face / 2), sign = face % 2 == 0 ? -1.0 : 1.0;
   if (width <= 0) return;
   const int count = volume.owned();
   const std::array<Sum*, 3> sums{&total.x, &total.y, &total.z};
   for (int axis = 0; axis < 3; ++axis)
-    WideSum(*sums[axis]).addAll(count, [&](int p) { return sign * volume[p] / width * stress[p](axis, face / 2); });
+    WideSum(*sums[axis]).addAll(count, [&](int p) {
+      const double viscous = viscosity && axis == face / 2 ? (*viscosity)[p] : 0.0;
+      return sign * volume[p] / width * (stress[p](axis, face / 2) - viscous);
+    });
   WideSum(area).addAll(count, [&](int p) { return volume[p] / width; });
 }
 
-/// Measures forces and areas on all six sides of the scene; `volume` and `stress` read those of particles.
+/// Measures forces and areas on all six sides of the scene; `volume` and `stress` read those of particles, `isViscous`
+/// tells whether they have a viscous pressure.
 template <int D, class Volume, class Stress>
 void scheduleBoundaryForces(TaskList& tasks, const std::vector<Material>& materials, const std::array<bool, 3>& isThin,
-                            Volume volume, Stress stress) {
+                            Volume volume, Stress stress, bool isViscous = false) {
   for (int face = 0; face < 6; ++face) {
     if (isThin[face / 2])
       tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary, materials, with(face), volume, stress,
-                        computes(total::onFaces[face].force), computes(total::onFaces[face].area));
+                        when(isViscous, requiresOld(p::viscosity)), computes(total::onFaces[face].force),
+                        computes(total::onFaces[face].area));
     else
       tasks.perMaterial("mpm::measureBoundary", measureBoundary<D>, materials, with(face),
                         requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::onFaces[face].force),

@@ -103,9 +103,11 @@ void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonS
   }
 }
 
-/// Adds the tasks for totals over the particles, and for their edges.
+/// Adds the tasks for totals over the particles, and for their edges. `moves`: whether p.x moves with the body;
+/// otherwise p.deformedPosition does.
 template <int D>
-void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, const Method& method, KeptSizes sizes) {
+void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, const Method& method, KeptSizes sizes,
+                    const ParticleLabel<Vec<D>>* deformed) {
   tasks.perMaterial("mpm::sumMass", sumParticles, materials, requiresOld(p::mass), computes(total::mass));
   tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, materials, requiresOld(p::strainEnergy),
                     computes(total::strainEnergy));
@@ -115,18 +117,27 @@ void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, con
                     requiresOld(p::velocity<D>), computes(total::kineticEnergy));
   tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, materials, requiresOld(p::mass), requiresOld(p::velocity<D>),
                     computes(total::momentum));
-  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials, requiresOld(p::mass), requiresOld(p::x<D>),
-                    computes(total::centerOfMass));
-  tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, materials, requiresOld(p::mass),
-                    requiresOld(p::x<D>), requiresOld(p::velocity<D>),
-                    when(method.affine, requiresOld(p::affineMoment)), computes(total::angularMomentum));
+  const auto aroundOrigin = [&](const auto& place) {
+    tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials, requiresOld(p::mass), place,
+                      computes(total::centerOfMass));
+    tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, materials, requiresOld(p::mass), place,
+                      requiresOld(p::velocity<D>), when(method.affine, requiresOld(p::affineMoment)),
+                      computes(total::angularMomentum));
+  };
+  if (deformed)
+    aroundOrigin(requiresNew(*deformed));
+  else
+    aroundOrigin(requiresOld(p::x<D>));
   tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, materials, with(method.commonSize),
                     when(sizes.each, requiresOld(p::size<D>)), when(sizes.domains, requiresOld(p::domain)),
                     requiresOld(p::deformationMeasure), computes(p::scaleFactor));
 }
 // Compiled in solids_of.cpp.
-extern template void scheduleTotals<1>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
-extern template void scheduleTotals<2>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
-extern template void scheduleTotals<3>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
+extern template void scheduleTotals<1>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes,
+                                       const ParticleLabel<Vec<1>>*);
+extern template void scheduleTotals<2>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes,
+                                       const ParticleLabel<Vec<2>>*);
+extern template void scheduleTotals<3>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes,
+                                       const ParticleLabel<Vec<3>>*);
 
 }  // namespace tushar::mpm::solid

@@ -27,15 +27,12 @@ void setTemperature(const Patch& patch, int material, NodeView<double> field) {
 /// Views of the particles whose heat is transferred to the nodes.
 template <int D>
 struct HeatToNodes {
-  Placed<D> particles;
-  ParticleView<const double> mass, particleTemperature;
+  ThermalParticles<D> particles;
   NodeView<double> capacity, temperatureNoBC, temperature;
   std::optional<NodeView<double>> isGiven;  ///< 1 at nodes with a given temperature, if there are any
 
   static HeatToNodes from(auto& take, int reach, KeptSizes keepsSizes, bool isAnyGiven) {
-    return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
-            .mass = take(requiresOld(p::mass, reach)),
-            .particleTemperature = take(requiresOld(p::temperature, reach)),
+    return {.particles = ThermalParticles<D>::from(take, reach, keepsSizes),
             .capacity = take(computes(g::heatCapacity)),
             .temperatureNoBC = take(computes(g::temperatureNoBC)),
             .temperature = take(computes(g::temperature)),
@@ -50,10 +47,10 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
   h.capacity.fill(0.0);
   h.temperatureNoBC.fill(0.0);
   const Box& box = h.capacity.box();
-  forEachStencilGroup<Shape>(patch, h.particles.x.cells(), h.particles, commonSize,
+  forEachStencilGroup<Shape>(patch, h.particles.placed.x.cells(), h.particles.placed, commonSize,
                              [&]<class Stencils>(int p, int count, const Stencils& stencils) {
-                               const Lanes heat = valuesOf(h.mass, p, count) * material.specificHeat;
-                               const Lanes temperature = valuesOf(h.particleTemperature, p, count);
+                               const Lanes heat = valuesOf(h.particles.mass, p, count) * material.specificHeat;
+                               const Lanes temperature = valuesOf(h.particles.temperature, p, count);
                                NodeShares<Stencils> capacity, warmth;
                                stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) {
                                  capacity[at] = s * heat;
@@ -77,16 +74,13 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
 /// Views of the particles near nodes with a given temperature.
 template <int D>
 struct NearGivenTemperature {
-  Placed<D> particles;
-  ParticleView<const double> mass, particleTemperature;
+  ThermalParticles<D> particles;
   NodeView<const double> temperature, isGiven;
   NodeView<double> change;
 
   static NearGivenTemperature from(auto& take, const ShapeTraits& shape, KeptSizes keepsSizes) {
     const int reach = shape.reach, nodes = reach + shape.ghostNodes;
-    return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
-            .mass = take(requiresOld(p::mass, reach)),
-            .particleTemperature = take(requiresOld(p::temperature, reach)),
+    return {.particles = ThermalParticles<D>::from(take, reach, keepsSizes),
             .temperature = take(requiresNew(g::temperature, nodes)),
             .isGiven = take(requiresNew(g::hasGivenTemperature, nodes)),
             .change = take(computes(g::givenTemperatureChange))};
@@ -104,28 +98,23 @@ void followGivenTemperature(const Patch& patch, const Material&, const Vec3& com
   std::vector<double> sums(static_cast<std::size_t>(box.size()), 0.0);
   const NodeView<double> weight(sums.data(), box);
   h.change.fill(0.0);
-  forEachStencilGroup<Shape>(patch, h.particles.x.cells(), h.particles, commonSize,
-                             [&]<class Stencils>(int p, int count, const Stencils& stencils) {
-                               const auto temperature = nodeValues(stencils, h.temperature);
-                               const auto given = nodeValues(stencils, h.isGiven);
-                               Lanes field = 0.0, share = 0.0;
-                               stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) {
-                                 field += s * temperature[at];
-                                 share += s * given[at];
-                               });
-                               bool isNear = false;
-                               for (int k = 0; k < count; ++k) isNear |= share[k] > 0;
-                               if (!isNear) return;
-                               const Lanes mass = valuesOf(h.mass, p, count);
-                               const Lanes gap = mass * (field - valuesOf(h.particleTemperature, p, count));
-                               NodeShares<Stencils> gaps, weights;
-                               stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) {
-                                 gaps[at] = s * gap;
-                                 weights[at] = s * (mass * share);
-                               });
-                               addShares(stencils, count, h.change, gaps);
-                               addShares(stencils, count, weight, weights);
-                             });
+  forEachStencilGroup<Shape>(
+      patch, h.particles.placed.x.cells(), h.particles.placed, commonSize,
+      [&]<class Stencils>(int p, int count, const Stencils& stencils) {
+        const Lanes share = fieldAt(stencils, h.isGiven);
+        bool isNear = false;
+        for (int k = 0; k < count; ++k) isNear |= share[k] > 0;
+        if (!isNear) return;
+        const Lanes mass = valuesOf(h.particles.mass, p, count);
+        const Lanes gap = mass * (fieldAt(stencils, h.temperature) - valuesOf(h.particles.temperature, p, count));
+        NodeShares<Stencils> gaps, weights;
+        stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) {
+          gaps[at] = s * gap;
+          weights[at] = s * (mass * share);
+        });
+        addShares(stencils, count, h.change, gaps);
+        addShares(stencils, count, weight, weights);
+      });
   forEach<D>(box, [&](const Index<D>& node) {
     h.change[node] = h.isGiven[node] > 0 && weight[node] > 0 ? h.change[node] / weight[node] : 0.0;
   });
@@ -272,15 +261,14 @@ template <class Shape, int D = Shape::dimension>
 void updateTemperature(const Patch& patch, const Material& material, const Vec3& commonSize,
                        const HeatToParticles<D>& h, double dt) {
   const double share = h.field ? subgridShare<D>(patch.level(), material, dt) : 0;
-  forEachStencilGroup<Shape>(
-      patch, patch.cells(), h.particles, commonSize, [&](int p, int count, const auto& stencils) {
-        const auto rate = nodeValues(stencils, h.rate);
-        Lanes change = 0.0;
-        stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) { change += s * rate[at]; });
-        change *= dt;
-        if (share > 0) change += share * (fieldAt(stencils, *h.field) - valuesOf(h.temperature, p, count));
-        for (int k = 0; k < count; ++k) h.newTemperature[p + k] = h.temperature[p + k] + change[k];
-      });
+  forEachStencilGroup<Shape>(patch, patch.cells(), h.particles, commonSize,
+                             [&](int p, int count, const auto& stencils) {
+                               Lanes change = dt * fieldAt(stencils, h.rate);
+                               if (share > 0)
+                                 change += share * (fieldAt(stencils, *h.field) - valuesOf(h.temperature, p, count));
+                               for (int k = 0; k < count; ++k)
+                                 h.newTemperature[p + k] = h.temperature[p + k] + change[k];
+                             });
 }
 
 /// Changes T_p due to the work of the step, after conduction.

@@ -44,12 +44,13 @@ void scheduleTemperatureUpdate(TaskList& tasks, const ShapedTasks<D>& shaped, co
 
 /// Adds motion, forces, stresses and accelerations on the nodes. Separate tasks compute them, because a scene may need
 /// the forces in every step, and the other quantities only for outputs. `volume` and `stress` read these variables of
-/// particles, with the ghost cells that shape functions reach.
+/// particles, with the ghost cells that shape functions reach; `isViscous`: whether they have a viscous pressure.
 template <int D, class Volume, class Stress>
 void scheduleShowOnGrid(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
-                        const Vec3& commonSize, KeptSizes keepsSizes, Volume volume, Stress stress) {
+                        const Vec3& commonSize, KeptSizes keepsSizes, Volume volume, Stress stress,
+                        bool isViscous = false) {
   const int reach = shaped.shape.reach;
-  const auto particles = all<StressedParticles<D>>(reach, keepsSizes, volume, stress);
+  const auto particles = all<StressedParticles<D>>(reach, keepsSizes, volume, stress, isViscous);
   tasks.perMaterial("mpm::showMotion", shaped.showMotion, materials, with(commonSize),
                     all<MotionPicture<D>>(reach, keepsSizes));
   tasks.perMaterial("mpm::showForce", shaped.showForce, materials, with(commonSize), particles, computes(g::volume),

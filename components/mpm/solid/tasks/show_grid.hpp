@@ -77,54 +77,57 @@ struct StressedParticles {
   Placed<D> placed;
   ParticleView<const double> volume;
   ParticleView<const Matrix3> stress;
+  OptionalView<const double> viscosity;  ///< viscous pressure [Pa], with artificial viscosity
 
-  static StressedParticles from(auto& take, int reach, KeptSizes keepsSizes, auto volume, auto stress) {
+  static StressedParticles from(auto& take, int reach, KeptSizes keepsSizes, auto volume, auto stress, bool isViscous) {
     return {.placed = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .volume = take(volume),
-            .stress = take(stress)};
+            .stress = take(stress),
+            .viscosity = take(when(isViscous, requiresOld(p::viscosity, reach)))};
   }
 };
 
-/// V_p sigma_p [N m] of several particles.
+/// V_p (sigma_p - q_p) [N m] of several particles.
 template <int D>
 struct ForceMoments {
   std::array<std::array<Lanes, D>, D> across;  ///< by kernel axes
   Lanes around;                                ///< the hoop stress
 
-  ForceMoments(const Level& level, const TensorOf<Lanes>& stress, Lanes volume) : around(volume * stress(2, 2)) {
+  ForceMoments(const Level& level, const TensorOf<Lanes>& stress, Lanes viscosity, Lanes volume)
+      : around(volume * (stress(2, 2) - viscosity)) {
     for (int i = 0; i < D; ++i)
       for (int d = 0; d < D; ++d) across[i][d] = volume * stress(sceneAxis<D>(level, i), sceneAxis<D>(level, d));
+    for (int d = 0; d < D; ++d) across[d][d] -= volume * viscosity;
   }
 };
 
-/// Computes V_i = sum_p S_i V_p,   f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta S_i / r in axisymmetric
-/// scenes), before any contact or boundary condition; 0 at nodes without mass.
+/// Computes V_i = sum_p S_i V_p,   f_i = - sum_p V_p (sigma_p - q_p) grad S_i (and - V_p (sigma_theta - q_p) S_i / r in
+/// axisymmetric scenes), q_p the viscous pressure, before any contact or boundary condition; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void showForce(const Patch& patch, const Material&, const Vec3& commonSize, const StressedParticles<D>& particles,
                NodeView<double> volume, NodeView<Vec<D>> force) {
   volume.fill(0.0);
   force.fill(Vec<D>::Zero());
-  forEachStencilGroup<Shape>(patch, particles.placed.x.cells(), particles.placed, commonSize,
-                             [&]<class Stencils>(int p, int count, const Stencils& stencils) {
-                               const Lanes volumes = valuesOf(particles.volume, p, count);
-                               const ForceMoments<D> moments(patch.level(),
-                                                             lanesOf(particles.stress.values() + p, count), volumes);
-                               NodeShares<Stencils> shares;
-                               std::array<NodeShares<Stencils>, D * D> forces;
-                               stencils.forEachNode([&](std::size_t at, Lanes s, const std::array<Lanes, D>& gradient) {
-                                 shares[at] = s * volumes;
-                                 for (std::size_t i = 0; i < D; ++i)
-                                   for (std::size_t d = 0; d < D; ++d)
-                                     forces[D * i + d][at] = moments.across[i][d] * gradient[d];
-                               });
-                               addShares(stencils, count, volume, shares);
-                               forEachNodeOfGroup(stencils, count, force, [&](Vec<D>& sum, std::size_t at, int lane) {
-                                 for (int i = 0; i < D; ++i)
-                                   for (int d = 0; d < D; ++d) sum[i] -= forces[D * i + d][at][lane];
-                                 if constexpr (Shape::axisymmetric)
-                                   sum[0] -= moments.around[lane] * stencils.hoop(at)[lane];
-                               });
-                             });
+  forEachStencilGroup<Shape>(
+      patch, particles.placed.x.cells(), particles.placed, commonSize,
+      [&]<class Stencils>(int p, int count, const Stencils& stencils) {
+        const Lanes volumes = valuesOf(particles.volume, p, count);
+        const Lanes viscosity = particles.viscosity ? valuesOf(*particles.viscosity, p, count) : Lanes(0.0);
+        const ForceMoments<D> moments(patch.level(), lanesOf(particles.stress.values() + p, count), viscosity, volumes);
+        NodeShares<Stencils> shares;
+        std::array<NodeShares<Stencils>, D * D> forces;
+        stencils.forEachNode([&](std::size_t at, Lanes s, const std::array<Lanes, D>& gradient) {
+          shares[at] = s * volumes;
+          for (std::size_t i = 0; i < D; ++i)
+            for (std::size_t d = 0; d < D; ++d) forces[D * i + d][at] = moments.across[i][d] * gradient[d];
+        });
+        addShares(stencils, count, volume, shares);
+        forEachNodeOfGroup(stencils, count, force, [&](Vec<D>& sum, std::size_t at, int lane) {
+          for (int i = 0; i < D; ++i)
+            for (int d = 0; d < D; ++d) sum[i] -= forces[D * i + d][at][lane];
+          if constexpr (Shape::axisymmetric) sum[0] -= moments.around[lane] * stencils.hoop(at)[lane];
+        });
+      });
 }
 
 /// Computes sigma_i = sum_p S_i V_p sigma_p / V_i; 0 at nodes without mass.

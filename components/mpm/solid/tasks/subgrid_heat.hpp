@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/transfer/stencil_groups.hpp"
+#include "components/mpm/solid/tasks/thermal_particles.hpp"
 
 // Conduction within cells, which the nodes do not see; Gerya & Yuen, Phys. Earth Planet. Inter. 140 (2003) 293, section
 // 4: particles relax towards the field of the nodes, and the nodes conduct that much less.
@@ -15,35 +15,23 @@ namespace tushar::mpm::solid {
 /// = 1).
 template <int D>
 double subgridShare(const Level& level, const Material& material, double dt) {
+  if (material.thermalConductivity == 0) return 0;
   double rate = 0;
   for (int d = 0; d < D; ++d) rate += 2 * level.inverseSpacing(d) * level.inverseSpacing(d);
   return -std::expm1(-dt * rate * material.thermalConductivity /
                      (material.undeformedDensity() * material.specificHeat));
 }
 
-/// The field sum_i S_i T_i at particles [K].
-template <class Stencils>
-Lanes fieldAt(const Stencils& stencils, const NodeView<const double>& temperature) {
-  const auto values = nodeValues(stencils, temperature);
-  Lanes field = 0.0;
-  stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) { field += s * values[at]; });
-  return field;
-}
-
 /// Views of the particles that conduct heat within cells.
 template <int D>
 struct SubgridHeat {
-  Placed<D> particles;
-  ParticleView<const double> mass, particleTemperature;
+  ThermalParticles<D> particles;
   NodeView<const double> temperature, capacity;
   NodeView<double> change;
 
   static SubgridHeat from(auto& take, const ShapeTraits& shape, KeptSizes keepsSizes) {
-    const int reach = shape.reach;
-    return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
-            .mass = take(requiresOld(p::mass, reach)),
-            .particleTemperature = take(requiresOld(p::temperature, reach)),
-            .temperature = take(requiresNew(g::temperature, reach + shape.ghostNodes)),
+    return {.particles = ThermalParticles<D>::from(take, shape.reach, keepsSizes),
+            .temperature = take(requiresNew(g::temperature, shape.reach + shape.ghostNodes)),
             .capacity = take(requiresNew(g::heatCapacity)),
             .change = take(computes(g::subgridTemperatureChange))};
   }
@@ -58,10 +46,10 @@ void computeSubgridHeat(const Patch& patch, const Material& material, const Vec3
   if (material.thermalConductivity == 0) return;
   const double share = subgridShare<D>(patch.level(), material, dt) * material.specificHeat;
   forEachStencilGroup<Shape>(
-      patch, h.particles.x.cells(), h.particles, commonSize,
+      patch, h.particles.placed.x.cells(), h.particles.placed, commonSize,
       [&]<class Stencils>(int p, int count, const Stencils& stencils) {
-        const Lanes gap = fieldAt(stencils, h.temperature) - valuesOf(h.particleTemperature, p, count);
-        const Lanes heat = share * valuesOf(h.mass, p, count) * gap;
+        const Lanes gap = fieldAt(stencils, h.temperature) - valuesOf(h.particles.temperature, p, count);
+        const Lanes heat = share * valuesOf(h.particles.mass, p, count) * gap;
         NodeShares<Stencils> shares;
         stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) { shares[at] = s * heat; });
         addShares(stencils, count, h.change, shares);

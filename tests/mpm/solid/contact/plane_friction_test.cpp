@@ -74,7 +74,11 @@ struct TwoBodies {
                      NodeView<const double>(color[m].data(), nodes)});
     return all;
   }
-  void slide() { slideAlongPlanes<2>(level, contact, views(), planes()); }
+  MeetingBodies<2> meeting() {
+    const data::TouchedRows all = data::TouchedRows::all(nodes);
+    return {{&all, &all}, views()};
+  }
+  void slide() { slideAlongPlanes<2>(level, contact, views(), planes(), meeting()); }
 
   Grid grid;
   const Level& level = grid.level();
@@ -144,7 +148,8 @@ TEST(SpecifiedFriction, SlidesOnAMasterThatMovesAsTold) {
   bodies.contact.friction = 0.5;
   bodies.contact.profile = {{0, Vec3(0, 1, 0)}, {1, Vec3(0, 1, 0)}};
   bodies.move(1, {4, -1});
-  slideOnMaster<2>(bodies.grid.patches().front(), bodies.contact, 0, 1e-3, bodies.views(), bodies.planes());
+  slideOnMaster<2>(bodies.grid.patches().front(), bodies.contact, 0, 1e-3, bodies.views(), bodies.planes(),
+                   bodies.meeting());
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
   EXPECT_LT((bodies.velocity(1) - Vec<2>(4 - 0.5 * 2, 1)).norm(), roundOff);
 }
@@ -155,7 +160,7 @@ TEST(SpecifiedFriction, FeelsTheForceOfThoseThatItStops) {
   bodies.move(1, {0, -0.02});  // what 20 N make of rest in a millisecond
   VectorSum reaction;
   sumSlidingReaction<2>(bodies.grid.patches().front(), bodies.contact, {Vec3::Zero(), 0}, 0, 1e-3, bodies.views(),
-                        bodies.planes(), reaction);
+                        bodies.planes(), bodies.meeting(), reaction);
   EXPECT_NEAR(reaction.y.total(), 20, 1e-12);
 }
 

@@ -1,19 +1,34 @@
 #pragma once
 
+#include <algorithm>
+#include <optional>
+
 #include "components/mpm/solid/contact/plane_friction.hpp"
 #include "components/mpm/solid/contact/present.hpp"
 #include "components/mpm/solid/material.hpp"
 
 namespace tushar::mpm::solid {
 
-/// Applies a contact other than stress-based friction to the velocities in the records.
+/// The nodes at which bodies meet, if a contact uses planes; empty otherwise.
+template <int D>
+std::optional<MeetingBodies<D>> meetingIfPlanes(const std::vector<Contact>& contacts, const Records& records,
+                                                const SeparatingPlanes<D>& planes) {
+  const auto usesPlanes = [](const Contact& contact) { return contact.usesPlanes(); };
+  if (std::none_of(contacts.begin(), contacts.end(), usesPlanes)) return std::nullopt;
+  return meetingAtPlanes<D>(records, planes);
+}
+
+/// Applies a contact other than stress-based friction to the velocities in the records. `meeting` is for contacts that
+/// use planes.
 template <int D>
 void applyContact(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
-                  const SeparatingPlanes<D>& planes) {
+                  const SeparatingPlanes<D>& planes, const std::optional<MeetingBodies<D>>& meeting) {
   if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
   if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, dt, records);
-  if (contact.type == Contact::Type::planeFriction) slideAlongPlanes<D>(patch.level(), contact, records, planes);
-  if (contact.type == Contact::Type::specifiedFriction) slideOnMaster<D>(patch, contact, time, dt, records, planes);
+  if (contact.type == Contact::Type::planeFriction)
+    slideAlongPlanes<D>(patch.level(), contact, records, planes, *meeting);
+  if (contact.type == Contact::Type::specifiedFriction)
+    slideOnMaster<D>(patch, contact, time, dt, records, planes, *meeting);
 }
 
 /// Applies contacts other than stress-based friction, to velocities at the start of a step or at its end: Uintah's
@@ -25,8 +40,9 @@ void exchangeMomentum(const Patch& patch, const std::vector<Material>& materials
   if (const auto present = presentIn(records); present.size() < records.size())
     return exchangeMomentum<D>(patch, materials, contactsAmong(contacts, present, records.size()), moment, time, dt,
                                onlyOf(records, present), onlyOf(planes, present));
+  const auto meeting = meetingIfPlanes<D>(contacts, records, planes);
   for (const Contact& contact : contacts)
-    if (contact.actsTwice || moment == Moment::end) applyContact<D>(patch, contact, time, dt, records, planes);
+    if (contact.actsTwice || moment == Moment::end) applyContact<D>(patch, contact, time, dt, records, planes, meeting);
 }
 
 /// Views of a force on the nodes [N] for each material; empty if no material transmits force.
@@ -59,6 +75,7 @@ void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& mate
                                     onlyOf(transmitted, present));
   for (const auto& force : transmitted)
     if (force) force->fill(Vec<D>::Zero());
+  const auto meeting = meetingIfPlanes<D>(contacts, records, planes);
   for (const Contact& contact : contacts) {
     const bool isSpecified = contact.type == Contact::Type::specified;
     const std::size_t master = contact.master;
@@ -66,8 +83,8 @@ void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& mate
     if (transmits) addMomentum<D>(contact, records, 1 / dt, *transmitted[master]);
     if (isSpecified) sumReaction<D>(patch, contact, acceleration, dt, records, reaction);
     if (contact.type == Contact::Type::specifiedFriction)
-      sumSlidingReaction<D>(patch, contact, acceleration, time, dt, records, planes, reaction);
-    applyContact<D>(patch, contact, time, dt, records, planes);
+      sumSlidingReaction<D>(patch, contact, acceleration, time, dt, records, planes, *meeting, reaction);
+    applyContact<D>(patch, contact, time, dt, records, planes, meeting);
     if (transmits) addMomentum<D>(contact, records, -1 / dt, *transmitted[master]);
   }
 }

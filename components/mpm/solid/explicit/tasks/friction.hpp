@@ -116,9 +116,10 @@ void computeSurface(const Patch& patch, const std::vector<Material>& materials, 
     const auto clear = [&surface = of[m].surface](const Index3& node) {
       surface.values()[surface.stored().offset(node)] = SurfaceRecord{};
     };
-    places.forEachPlace(clear);
+    const data::TouchedRows& rows = touchedRows<D>(of[m].x, Shape::ghostNodes);
+    places.forEachIn(rows, true, clear);
     addSurface<Shape>(patch, materials[m], commonSize, places, of[m]);
-    places.forEachOther(touchedRows<D>(of[m].x, Shape::ghostNodes), clear);
+    places.forEachIn(rows, false, clear);
   }
 }
 

@@ -126,8 +126,9 @@ struct StrainWork {
 };
 
 /// Adds the work of the stresses, V0 (P_old + P_new)/2 : (F_new - F_old) with V0 P = V sigma F^-T, and that of the
-/// artificial viscosity, -V q ln(J_new / J_old).
+/// artificial viscosity, -V q ln(J_new / J_old). The stress of a rigid body exerts no force.
 inline void measureStrainWork(const Patch&, const Material& material, const StrainWork& u) {
+  if (material.isRigid) return;
   std::array<Matrix3, stressGroup> before, after;
   const double density = material.undeformedDensity();
   const auto startVolume = [&](int p) { return u.mass[p] / density; };
@@ -156,7 +157,7 @@ inline void measurePlasticWork(const Patch&, const Material& material, int state
                                ParticleView<const double> volume, ParticleView<const Matrix3> stress,
                                ParticleView<p::Works> work) {
   const int offset = offsetOf(*material.model, "p.plasticStrain");
-  if (offset < 0 || work.owned() == 0) return;
+  if (offset < 0 || work.owned() == 0 || material.isRigid) return;
   const double *before = &oldState[0] + offset, *after = &state[0] + offset;
   for (int p = 0; p < work.owned(); ++p) {
     const double flow = after[p * stateSize] - before[p * stateSize];

@@ -135,7 +135,7 @@ void findSurface(const Patch& patch, const Material& material, ParticleView<cons
     surface[p] = 1;
     if (material.maySplit) continue;
     for (const Body& body : material.bodies)
-      if (body.shape->contains(place)) surface[p] = isAtSurface(patch.level(), body, place) ? 1 : 0;
+      if (body.shape->contains(body.inShape(place))) surface[p] = isAtSurface(patch.level(), body, place) ? 1 : 0;
   }
 }
 

@@ -49,8 +49,8 @@ void addPull(const Patch& patch, const RigidMotion<D>& u, Pull& pull) {
     pull.mass.add(u.mass[p]);
     pull.force.add(patch.level().expandDirection<D>(u.externalForce[p]));
   }
-  forEach<D>(u.transmitted.box().intersect(patch.level().nodesOfCells()), [&](const Index<D>& node) {
-    if (!isOwned<D>(patch, node) || (patch.level().boxes() && !patch.level().isNodeInside<D>(node))) return;
+  forEach<D>(u.transmitted.box(), [&](const Index<D>& node) {
+    if (!countsOnce<D>(patch, node)) return;
     pull.force.add(patch.level().expandDirection<D>(u.transmitted[node]));
     if (u.surrounding) pull.force.add(patch.level().expandDirection<D>((*u.surrounding)[node]));
   });
