@@ -1,12 +1,15 @@
 #include "components/mpm/solid/contact/plane_friction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <utility>
 
 #include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
+#include "core/base/lanes.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -61,23 +64,84 @@ Column<N> solved(Square<N> a, Column<N> b) {
   return b;
 }
 
+/// e^x for 0 <= x <= 700, to 2e-16 of it: 2^n times the Taylor series of the rest, which is at most ln 2 / 2.
+Lanes exponential(Lanes x) {
+  constexpr double shift = 0x1.8p52;  // after its addition, the last bits of a number are those of the next integer
+  const Lanes shifted = x * Lanes(0x1.71547652b82fep0) + Lanes(shift), n = shifted - Lanes(shift);
+  const Lanes rest = x - n * Lanes(0x1.62e42fefa39efp-1) - n * Lanes(0x1.abc9e3b39803fp-56);
+  Lanes sum = 1.0;
+  for (int k = 13; k > 0; --k) sum = 1.0 + sum * rest * Lanes(1.0 / k);
+  Lanes::Mask bits;
+  const Lanes::Register all = shifted.values();
+  std::memcpy(&bits, &all, sizeof bits);
+  bits = (bits + 1023) << 52;
+  Lanes::Register power;
+  std::memcpy(&power, &bits, sizeof power);
+  return sum * power;
+}
+
+/// tanh x, to 3e-16.
+Lanes hyperbolicTangent(Lanes x) {
+  const Lanes size = select(x < Lanes(0.0), -x, x);
+  const Lanes e = exponential(select(size < Lanes(20.0), 2 * size, Lanes(40.0)));
+  const Lanes tangent = (e - 1.0) / (e + 1.0);
+  return select(x < Lanes(0.0), -tangent, tangent);
+}
+
+/// The particles of a regression, one list for each coordinate, filled up to whole registers.
+template <int D>
+struct Regression {
+  std::array<std::vector<double>, D> x;  ///< coordinates relative to the node [m]
+  std::vector<double> side, f;           ///< 1 or -1, and f for the current phi
+  std::size_t count;
+
+  explicit Regression(const std::vector<SidedParticle<D>>& particles) : count(particles.size()) {
+    const std::size_t whole = (count + Lanes::count - 1) / Lanes::count * Lanes::count;
+    for (std::vector<double>& list : x) list.resize(whole);
+    side.resize(whole);
+    f.resize(whole);
+    for (std::size_t p = 0; p < count; ++p) {
+      for (int d = 0; d < D; ++d) x[d][p] = particles[p].x[d];
+      side[p] = particles[p].isOther ? 1.0 : -1.0;
+    }
+  }
+  void evaluate(const Column<D + 1>& phi) {
+    for (std::size_t p = 0; p < f.size(); p += Lanes::count) {
+      Lanes sum = phi[0] * Lanes::at(&x[0][p]);
+      for (int d = 1; d < D; ++d) sum += phi[d] * Lanes::at(&x[d][p]);
+      hyperbolicTangent(0.5 * (sum + phi[D])).copyTo(&f[p]);
+    }
+  }
+};
+
 /// Performs one step of the regression: (J^T J + lambda) change = J^T (c - f) - lambda phi.
 template <int D>
-Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda, const Column<D + 1>& phi) {
-  Square<D + 1> matrix = Square<D + 1>::Zero();
-  Column<D + 1> right = Column<D + 1>::Zero();
+Column<D + 1> step(Regression<D>& particles, double lambda, const Column<D + 1>& phi) {
+  std::array<std::array<double, D + 1>, D + 1> matrix{};
+  std::array<double, D + 1> right{};
   for (int d = 0; d < D; ++d) {
-    matrix(d, d) = lambda;
+    matrix[d][d] = lambda;
     right[d] = -lambda * phi[d];
   }
-  for (const SidedParticle<D>& particle : particles) {
-    Column<D + 1> x;
-    x << particle.x, 1.0;
-    const double f = std::tanh(0.5 * phi.dot(x)), slope = 0.5 * (1 - f * f);
-    matrix += slope * slope * x * x.transpose();
-    right += slope * ((particle.isOther ? 1.0 : -1.0) - f) * x;
+  particles.evaluate(phi);
+  for (std::size_t p = 0; p < particles.count; ++p) {
+    std::array<double, D + 1> x;
+    for (int d = 0; d < D; ++d) x[d] = particles.x[d][p];
+    x[D] = 1;
+    const double f = particles.f[p], slope = 0.5 * (1 - f * f), missing = slope * (particles.side[p] - f);
+    for (int i = 0; i <= D; ++i) {
+      const double weighted = slope * slope * x[i];
+      for (int j = i; j <= D; ++j) matrix[i][j] += weighted * x[j];
+      right[i] += missing * x[i];
+    }
   }
-  return solved<D + 1>(matrix, right);
+  Square<D + 1> all;
+  Column<D + 1> b;
+  for (int i = 0; i <= D; ++i) {
+    for (int j = i; j <= D; ++j) all(i, j) = all(j, i) = matrix[i][j];
+    b[i] = right[i];
+  }
+  return solved<D + 1>(all, b);
 }
 
 /// Index of the material, of those present at a node, to which the plane there belongs; -1 if there is no plane.
@@ -151,8 +215,9 @@ Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double w
   Eigen::Matrix<double, D + 1, 1> phi = Eigen::Matrix<double, D + 1, 1>::Zero();
   Vec<D> last = Vec<D>::Zero(), closest = Vec<D>::Zero();
   double least = 1;
+  Regression<D> regression(particles);
   for (int k = 0; k < mostSteps; ++k) {
-    phi += step<D>(particles, 1e-7 * width * width, phi);
+    phi += step<D>(regression, 1e-7 * width * width, phi);
     Vec<D> normal = phi.template head<D>();
     if (const double length = normal.norm(); length > 0) normal /= length;
     const double change = 1 - normal.dot(last);

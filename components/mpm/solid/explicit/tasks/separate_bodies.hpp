@@ -4,6 +4,7 @@
 #include "components/mpm/solid/loads/load.hpp"
 #include "components/mpm/solid/transfer/mirror_images.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
+#include "components/mpm/solid/transfer/stencil_groups.hpp"
 
 // The planes that separate bodies at the nodes where several meet (see SeparatingPlane), as in Uintah.
 
@@ -111,15 +112,23 @@ void interpolateColor(const Patch& patch, const Material& material, const Vec3& 
                       ParticleView<const double> mass, ParticleView<const double> color,
                       NodeView<const NodeRecord> record, NodeView<double> mean) {
   mean.fill(0.0);
+  forEachStencilGroup<Shape>(
+      patch, particles.x.cells(), particles, commonSize,
+      [&]<class Stencils>(int p, int count, const Stencils& stencils) {
+        const Lanes masses = valuesOf(mass, p, count), colors = valuesOf(color, p, count);
+        NodeShares<Stencils> shares;
+        stencils.forEachNode([&](std::size_t at, Lanes s, const auto&) { shares[at] = s * masses * colors; });
+        addShares(stencils, count, mean, shares);
+      });
   const SymmetryPlanes<D> planes(patch.level(), material);
-  forEachStencil<Shape>(patch, particles.x.cells(), particles, commonSize, [&](int p, const auto& stencil) {
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
-      if (mean.box().contains(node)) mean[node] += s * mass[p] * color[p];
-      planes.ifBeyond(node, [&](const Index<D>& image, const Vec<D>&) {
-        if (mean.box().contains(image)) mean[image] += s * mass[p] * color[p];
+  if (planes.any())
+    forEachStencil<Shape>(patch, particles.x.cells(), particles, commonSize, [&](int p, const auto& stencil) {
+      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+        planes.ifBeyond(node, [&](const Index<D>& image, const Vec<D>&) {
+          if (mean.box().contains(image)) mean[image] += s * mass[p] * color[p];
+        });
       });
     });
-  });
   forEach<D>(mean.box(), [&](const Index<D>& node) {
     if (mean[node] != 0) mean[node] /= record[node][lane::mass];
   });
