@@ -69,6 +69,7 @@ void noteThinBodies(const std::vector<mpm::solid::Material>& materials, const El
   for (const mpm::solid::Material& material : materials) {
     if (material.bodies.size() != 1) continue;
     const mpm::solid::Body& body = material.bodies.front();
+    if (body.list) continue;  // the widths of its particles are not known yet
     const auto bounds = body.shape->bounds();
     for (int axis = 0; axis < 3; ++axis) {
       if (bounds.min[axis] <= grid->lower[axis] && bounds.max[axis] >= grid->upper[axis]) continue;

@@ -3,6 +3,7 @@
 and after a restart."""
 import itertools
 import pathlib
+import re
 import sys
 import unittest
 
@@ -56,6 +57,30 @@ class ListedParticles(SceneTest):
         self.assertEqual(state["p.temperature [K]"], (310, 320))
         for mass, expected in zip(state["p.mass [kg]"], (1e-7, 2e-7), strict=True):
             self.assertAlmostEqual(mass / expected, 1, delta=1e-14)
+
+    def test_may_have_edges_in_any_order_in_a_plane_too(self):
+        before, *_, after = re.split(r"<geom_object>.*?</geom_object>",
+                                     (ROOT / "ups/solid/placed_bodies.ups").read_text(), flags=re.S)
+        energies = []
+        for edges in ("{0} 0 0 0 {0} 0 0 0 {1}", "0 {0} 0 {0} 0 0 0 0 {1}", "0 0 {1} 0 {0} 0 {0} 0 0",
+                      "0 {0} 0 0 0 {1} {0} 0 0", "-{0} 0 0 0 -{0} 0 0 0 {1}"):
+            path = self.scene("")
+            bodies = ""
+            for name, corner, speed in (("left", .2, 1), ("right", .45, -1)):
+                xs, ys = ([start + (k + .5) * .025 for k in range(8)] for start in (corner, .2))
+                (path.parent / f"{name}.pts").write_text("".join(
+                    f"{x!r} {y!r} .025 {edges.format('.025', '.05')}\n" for y in ys for x in xs))
+                bodies += (f"<geom_object><file><name>{name}.pts</name><var>p.rvec1</var><var>p.rvec2</var>"
+                           f"<var>p.rvec3</var></file><res>[2,2,1]</res><velocity>[{speed},0,0]</velocity>"
+                           "<temperature>300</temperature></geom_object>")
+            path.write_text(before + bodies + after)
+            energies.append(globals_of(path, "KineticEnergy", "StrainEnergy"))
+        scale = energies[0]["KineticEnergy"][0][1]
+        self.assertGreater(max(line[1] for line in energies[0]["StrainEnergy"]) / scale, .1)
+        for found in energies[1:]:
+            for name, lines in found.items():
+                for one, other in zip(lines, energies[0][name], strict=True):
+                    self.assertAlmostEqual(one[1] / scale, other[1] / scale, delta=1e-9)
 
     def test_have_the_same_bits_on_any_layout_and_after_a_restart(self):
         expected = run(SCENE, SHORT).report["fingerprint"]

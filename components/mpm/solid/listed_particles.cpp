@@ -19,18 +19,25 @@ using input::Diagnostics;
 using input::Element;
 using input::Schema;
 
-bool ListedParticles::contains(const Vec3& point) const {
-  if (bins_.empty()) return false;
+const Vec3* ListedParticles::halfAt(const Vec3& point) const {
+  if (bins_.empty()) return nullptr;
   const Bin center = binOf(point);
+  const Vec3* half = nullptr;
+  double least = 0;
   Bin bin;
   for (bin[0] = center[0] - 1; bin[0] <= center[0] + 1; ++bin[0])
     for (bin[1] = center[1] - 1; bin[1] <= center[1] + 1; ++bin[1])
       for (bin[2] = center[2] - 1; bin[2] <= center[2] + 1; ++bin[2]) {
         auto next = std::lower_bound(bins_.begin(), bins_.end(), std::pair(bin, std::size_t{0}));
-        for (; next != bins_.end() && next->first == bin; ++next)
-          if (((point - at[next->second]).array().abs() <= halfOf(next->second).array()).all()) return true;
+        for (; next != bins_.end() && next->first == bin; ++next) {
+          const Vec3 away = point - at[next->second];
+          if (!(away.array().abs() <= halfOf(next->second).array()).all()) continue;
+          if (half && away.squaredNorm() >= least) continue;
+          least = away.squaredNorm();
+          half = &halfOf(next->second);
+        }
       }
-  return false;
+  return half;
 }
 
 input::Box3 ListedParticles::bounds() const {

@@ -23,7 +23,10 @@ class ListedParticles : public input::GeometryPiece {
   std::vector<Vec3> velocity;       ///< velocity [m/s]
 
   /// Whether a point lies in the box around one of the particles; none has a box before `giveBoxes`.
-  bool contains(const Vec3& point) const override;
+  bool contains(const Vec3& point) const override { return halfAt(point) != nullptr; }
+  /// The half widths of the box that contains a point [m], of the nearest particle if there are several; null if there
+  /// is none.
+  const Vec3* halfAt(const Vec3& point) const;
   /// The smallest box that contains all positions.
   input::Box3 bounds() const override;
   /// Gives each particle a box with these half widths [m], which may be infinite; `half` has one entry for all

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -129,14 +130,34 @@ void seedCylinder(const Level& level, const Body& body, const input::SmoothCylin
     add<D>(level, body, {one.at, inverse.asDiagonal() * one.edges, one.volume / level.cellVolume()}, seeds);
 }
 
+/// The edges of a listed particle [m], one per column, in an order in which those along axes that the grid does not use
+/// are their own columns, and the volume is positive: files have them in any order.
+template <int D>
+Matrix3 orderedEdges(const Level& level, Matrix3 edges) {
+  std::array<bool, 3> isUsed{};
+  for (int d = 0; d < D; ++d) isUsed[level.axis(d)] = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (isUsed[axis]) continue;
+    int along = axis;
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(edges(axis, k)) > std::abs(edges(axis, along)) && (isUsed[k] || k > axis)) along = k;
+    edges.col(axis).swap(edges.col(along));
+  }
+  if (edges.determinant() > 0) return edges;
+  if constexpr (D > 1)
+    edges.col(level.axis(D - 2)).swap(edges.col(level.axis(D - 1)));
+  else
+    edges.col(level.axis(0)) *= -1;
+  return edges;
+}
+
 /// The domain and volume of a listed particle; `at` is not set.
 template <int D>
 Seed sizeOf(const Level& level, const Body& body, std::size_t k) {
   const ListedParticles& list = *body.list;
   Seed seed = partOfCell<D>(level, body.particlesPerCell);
   if (!list.edges.empty()) {
-    Matrix3 edges = list.edges[k];
-    if (edges.determinant() < 0) edges.col(1).swap(edges.col(2));
+    const Matrix3 edges = orderedEdges<D>(level, list.edges[k]);
     seed.domain = inCells(level).asDiagonal() * edges;
     seed.volume = edges.determinant() / level.cellVolume();
   }

@@ -44,7 +44,7 @@ Vec<D> extentOf(const Level& level, const Seed& seed) {
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
       if (i == j)
-        extent[i] = seed.domain(level.axis(i), level.axis(i));
+        extent[i] = std::abs(seed.domain(level.axis(i), level.axis(i)));
       else
         isAlongAxes = isAlongAxes && seed.domain(level.axis(i), level.axis(j)) == 0;
   return isAlongAxes ? extent : Vec<D>(Vec<D>::Constant(std::pow(seed.volume, 1.0 / D)));

@@ -77,9 +77,21 @@ void refuseWideParticles(const Level& level, const std::vector<Material>& materi
     }
 }
 
+/// Refuses listed sizes around an axis: a particle there is a ring, whose volume per radian depends on its radius.
+void refuseSizesAroundAxis(const Problem& problem) {
+  for (const Material& material : problem.materials)
+    for (const Body& body : material.bodies)
+      if (body.list && !(body.list->volume.empty() && body.list->edges.empty()))
+        throw InputError(
+            {{body.where, "geom_object/file",
+              "p.volume, p.rvec1, p.rvec2 and p.rvec3 are not available with axisymmetric; <res> gives the "
+              "size of the particles"}});
+}
+
 }  // namespace
 
 void settleParticles(const Level& level, Problem& problem, bool isGimp) {
+  if (problem.start.axisymmetric) refuseSizesAroundAxis(problem);
   for (Material& material : problem.materials) placeParticles(level, material.bodies);
   if (isGimp) refuseWideParticles(level, problem.materials);
   countParticles(level, problem.materials, problem.start.loads.surfaces);

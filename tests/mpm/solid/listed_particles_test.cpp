@@ -176,6 +176,16 @@ TEST(ListedParticles, AreTheShapeOfTheirBody) {
   EXPECT_FALSE(body.shape->contains({.18, -.38, .05}));
 }
 
+TEST(ListedParticles, HaveTheSpacingOfTheirBoxes) {
+  Body body = bodyOf("0 0 .05 .001\n.5 0 .05 .008\n", "<var>p.volume</var>");
+  seedsOf(body);
+
+  ASSERT_NE(body.list->halfAt({0, .04, .05}), nullptr);
+  EXPECT_NEAR((*body.list->halfAt({0, .04, .05}))[0], .05, 1e-15);
+  EXPECT_NEAR((*body.list->halfAt({.45, .04, .05}))[1], .1, 1e-15);
+  EXPECT_EQ(body.list->halfAt({.1, 0, .05}), nullptr);
+}
+
 TEST(ListedParticles, RefuseParticlesOutsideTheGrid) {
   for (const char* place : {"1.1 0 .05\n", "0 0 .2\n"}) {
     Body body = bodyOf(place, "");

@@ -116,7 +116,7 @@ Vec3 normalAt(const Surface& surface, const Vec3& point) {
 }
 
 bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point) {
-  const Vec3 spacing = particleSpacing(level, body), place = body.inShape(point);
+  const Vec3 spacing = particleSpacing(level, body, point), place = body.inShape(point);
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0})
       if (level.domain().resolution[axis] > 1 && !body.shape->contains(place + side * spacing[axis] * Vec3::Unit(axis)))
@@ -125,7 +125,7 @@ bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point) 
 }
 
 bool SurfaceLoad::acts(const grid::Level& level, const Body& body, const Vec3& point) const {
-  return isAlong(surface, point, particleSpacing(level, body), kind) && isAtSurface(level, body, point);
+  return isAlong(surface, point, particleSpacing(level, body, point), kind) && isAtSurface(level, body, point);
 }
 
 double SurfaceLoad::weight(const Vec3& point) const {
@@ -159,9 +159,12 @@ bool Loads::hasForces() const {
 }
 bool Loads::hasHeat() const { return hasKind(surfaces, SurfaceLoad::Kind::heatFlux); }
 
-Vec3 particleSpacing(const grid::Level& level, const Body& body) {
+Vec3 particleSpacing(const grid::Level& level, const Body& body, const Vec3& point) {
   Vec3 spacing;
   for (int axis = 0; axis < 3; ++axis) spacing[axis] = level.cellWidth(axis) / body.particlesPerCell[axis];
+  const Vec3* const half = body.list ? body.list->halfAt(point) : nullptr;
+  for (int axis = 0; axis < 3 && half; ++axis)
+    if (std::isfinite((*half)[axis])) spacing[axis] = 2 * (*half)[axis];
   return spacing;
 }
 

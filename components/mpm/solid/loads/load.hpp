@@ -97,7 +97,7 @@ void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&&
 }
 
 /// The distance between the particles of a body along x, y, z [m].
-Vec3 particleSpacing(const grid::Level& level, const Body& body);
+Vec3 particleSpacing(const grid::Level& level, const Body& body, const Vec3& point);
 /// Whether a particle that starts at `point` is at the surface of its body: at least one neighbouring particle would be
 /// outside. Neighbours along an axis with one cell are ignored.
 bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point);

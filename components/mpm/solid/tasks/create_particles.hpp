@@ -43,7 +43,7 @@ inline int loadsOn(const Level& level, const Start& start, const Material& mater
   };
   for (const SurfaceLoad& load : start.loads.surfaces)
     addIf((load.material < 0 || load.material == material.index) && load.acts(level, body, point));
-  const Vec3 spacing = particleSpacing(level, body);
+  const Vec3 spacing = particleSpacing(level, body, point);
   for (const BodyLoad& load : start.loads.bodies) addIf(load.acts(point, spacing));
   return ids;
 }
