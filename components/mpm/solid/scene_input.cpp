@@ -83,7 +83,7 @@ void refuseSizesAroundAxis(const Problem& problem) {
     for (const Body& body : material.bodies)
       if (body.list && !(body.list->volume.empty() && body.list->edges.empty()))
         throw InputError(
-            {{body.where, "geom_object/file",
+            {{body.where, "geom_object",
               "p.volume, p.rvec1, p.rvec2 and p.rvec3 are not available with axisymmetric; <res> gives the "
               "size of the particles"}});
 }
