@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <span>
 #include <utility>
 
 #include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
-#include "core/base/lanes.hpp"
+#include "core/base/lane_functions.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -62,30 +61,6 @@ Column<N> solved(Square<N> a, Column<N> b) {
     b[i] /= a(i, i);
   }
   return b;
-}
-
-/// e^x for 0 <= x <= 700, to 2e-16 of it: 2^n times the Taylor series of the rest, which is at most ln 2 / 2.
-Lanes exponential(Lanes x) {
-  constexpr double shift = 0x1.8p52;  // after its addition, the last bits of a number are those of the next integer
-  const Lanes shifted = x * Lanes(0x1.71547652b82fep0) + Lanes(shift), n = shifted - Lanes(shift);
-  const Lanes rest = x - n * Lanes(0x1.62e42fefa39efp-1) - n * Lanes(0x1.abc9e3b39803fp-56);
-  Lanes sum = 1.0;
-  for (int k = 13; k > 0; --k) sum = 1.0 + sum * rest * Lanes(1.0 / k);
-  Lanes::Mask bits;
-  const Lanes::Register all = shifted.values();
-  std::memcpy(&bits, &all, sizeof bits);
-  bits = (bits + 1023) << 52;
-  Lanes::Register power;
-  std::memcpy(&power, &bits, sizeof power);
-  return sum * power;
-}
-
-/// tanh x, to 3e-16.
-Lanes hyperbolicTangent(Lanes x) {
-  const Lanes size = select(x < Lanes(0.0), -x, x);
-  const Lanes e = exponential(select(size < Lanes(20.0), 2 * size, Lanes(40.0)));
-  const Lanes tangent = (e - 1.0) / (e + 1.0);
-  return select(x < Lanes(0.0), -tangent, tangent);
 }
 
 /// The particles of a regression, one list for each coordinate, filled up to whole registers.
