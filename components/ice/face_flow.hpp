@@ -17,7 +17,7 @@ namespace tushar::ice {
 struct IceSettings {
   euler::Diffusion diffusion;
   Vec3 gravity = Vec3::Zero();  ///< gravity [m/s²]
-  Vec3 push = Vec3::Zero();     ///< driving force per volume [N/m³], in implicit steps
+  Vec3 push = Vec3::Zero();     ///< driving force per volume [N/m³]
   double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: no limit
   solvers::LinearSettings solver = {};
 };
@@ -86,8 +86,11 @@ class GasBefore {
 
   const Level& level() const { return level_; }
   const LawsOf<K>& gas() const { return gas_; }
-  /// The acceleration [m/s²] by gravity and the driving force where the density [kg/m³] is `density`.
-  double acceleration(int axis, double density) const { return gravity_[axis] + push_[axis] / density; }
+  /// The acceleration [m/s²] by gravity and the driving force where the density [kg/m³] is `density`, which may be 0
+  /// without a driving force.
+  double acceleration(int axis, double density) const {
+    return push_[axis] == 0 ? gravity_[axis] : gravity_[axis] + push_[axis] / density;
+  }
   const Vec<D>& gravity() const { return gravity_; }
   const Vec<D>& push() const { return push_; }
   /// Rho, v and p; for several gases also their masses and volume fractions.

@@ -26,9 +26,6 @@ void Ice<D>::scheduleDiffusion(TaskList& tasks) const {
     schedule(euler::addVaryingDiffusion<D>, varying_);
   else if (acting_.diffusion.acts())
     schedule(euler::addDiffusion<D>, acting_.diffusion);
-  if (!push_.isZero(0))
-    tasks.perPatch("euler::addForce", euler::addForce<D>, with(push_), requiresNew(euler::c::density),
-                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
   if (heating_.acts())
     tasks.perPatch("ice::addHeat", addHeat<D>, with(heating_), requiresNew(euler::c::density), startTime(),
                    requiresOld(delT), modifies(euler::c::totalEnergy));
@@ -94,6 +91,9 @@ void Ice<D>::scheduleTimeAdvance(TaskList& tasks) const {
   euler::Euler<D>::scheduleTimeAdvance(tasks);
   scheduleScalars(tasks);
   scheduleDiffusion(tasks);
+  if (!acting_.push.isZero(0))
+    tasks.perPatch("euler::addForce", euler::addForce<D>, with(acting_.push), requiresNew(euler::c::density),
+                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
   if (!acting_.gravity.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(acting_.gravity), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));

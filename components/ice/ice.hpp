@@ -17,15 +17,13 @@ class Ice : public euler::Euler<D> {
  public:
   explicit Ice(const GasScene& scene)
       : euler::Euler<D>(scene.gas),
-        acting_{.diffusion = {scene.viscosity, scene.conductivity}, .gravity = scene.gravity},
+        acting_{.diffusion = {scene.viscosity, scene.conductivity}, .gravity = scene.gravity, .push = scene.push},
         varying_(scene.varying),
-        push_(scene.push),
         heating_(scene.heating) {
     if (varying_.varies()) acting_.diffusion = {};
     for (const ScalarSettings& one : scene.scalars) scalars_.push_back(std::make_shared<const CarriedScalar>(one));
     tracers_ = tracersOf(scene.tracers, {scene.gas.name}, scalars_, false);
     if (!scene.implicit) return;
-    std::swap(acting_.push, push_);  // the solve for the pressure needs it
     acting_.soundSpeedKnob = scene.implicit->soundSpeedKnob;
     acting_.solver = scene.implicit->solver;
   }
@@ -52,7 +50,7 @@ class Ice : public euler::Euler<D> {
   void scheduleTracers(TaskList& tasks) const;
   /// Adds the tasks that limit the time step because of scalars.
   void scheduleStepsOfScalars(TaskList& tasks) const;
-  /// Adds viscosity, conduction and a driving force, after the step of the gas.
+  /// Adds viscosity, conduction and heat, after the step of the gas.
   void scheduleDiffusion(TaskList& tasks) const;
   /// Adds the task that limits explicit steps by a varying viscosity, together with the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks) const;
@@ -62,7 +60,6 @@ class Ice : public euler::Euler<D> {
   std::shared_ptr<const TracersOfGases> tracers_;  ///< null if there are none
   IceSettings acting_;  ///< settings of the step; they contain the diffusion only if it is uniform
   euler::VaryingDiffusion varying_;
-  Vec3 push_;  ///< driving force per volume [N/m³]
   Heating heating_;
 };
 

@@ -44,25 +44,18 @@ void balance(Outcome& outcome, MatNullSpace free, Vec b) {
   check(MatNullSpaceRemove(free, b));
 }
 
-/// The tolerance for the ratio of the residual to |b|, never below the rounding error.
-double toleranceOf(const LinearProblem& problem, const LinearSettings& settings, Vec b) {
-  PetscReal size = 0;
-  check(VecNorm(b, NORM_2, &size));
-  if (problem.scale <= 0 || size <= problem.scale) return settings.tolerance;
-  return std::max(settings.tolerance * problem.scale / size, std::min(settings.tolerance, leastTolerance));
-}
-
-/// Ends the solve if the residual is the rounding error of `scale`, and compares with `scale` before it calls a
-/// residual divergent: beside a right-hand side of round-off, a solution of round-off may start from a guess that is
-/// not 0.
-void allowRoundOff(const LinearProblem& problem, const LinearSettings& settings, Vec b, KSP krylov) {
-  if (problem.scale <= 0) return;
+/// Makes tolerances relative to `scale` as well as to |b|, but never below the rounding error. A residual that is the
+/// rounding error of `scale` ends the solve, and only one far beyond `scale` is divergent: beside a right-hand side of
+/// round-off, a solution of round-off may start from a guess that is not 0.
+void relateToScale(double scale, const LinearSettings& settings, Vec b, KSP krylov) {
   PetscReal size = 0, divergence = 0;
-  PetscInt iterations = 0;
+  if (scale <= 0) return;
   check(VecNorm(b, NORM_2, &size));
-  check(KSPGetTolerances(krylov, nullptr, nullptr, &divergence, &iterations));
-  if (size > 0) divergence *= std::max(1.0, problem.scale / size);
-  check(KSPSetTolerances(krylov, settings.tolerance, leastTolerance * problem.scale, divergence, iterations));
+  check(KSPGetTolerances(krylov, nullptr, nullptr, &divergence, nullptr));
+  double tolerance = settings.tolerance;
+  if (size > scale) tolerance = std::max(tolerance * scale / size, std::min(tolerance, leastTolerance));
+  if (size > 0) divergence *= std::max(1.0, scale / size);
+  check(KSPSetTolerances(krylov, tolerance, leastTolerance * scale, divergence, settings.maxIterations));
 }
 
 }  // namespace
@@ -83,10 +76,8 @@ Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, cons
   check(KSPSetOperators(krylov, matrix, matrix));
   check(KSPSetInitialGuessNonzero(krylov, settings.solver == "preonly" ? PETSC_FALSE : PETSC_TRUE));
   check(KSPSetResidualHistory(krylov, nullptr, settings.maxIterations + 1, PETSC_TRUE));
-  LinearSettings used = settings;
-  used.tolerance = toleranceOf(problem, settings, b);
-  configure(krylov, used, "cg");
-  allowRoundOff(problem, used, b, krylov);
+  configure(krylov, settings, "cg");
+  relateToScale(problem.scale, settings, b, krylov);
   outcome.setup = timed([&] { check(KSPSetUp(krylov)); });
   outcome.solve = timed([&] { check(KSPSolve(krylov, b, solution)); });
   if (free) check(MatNullSpaceRemove(free, solution));

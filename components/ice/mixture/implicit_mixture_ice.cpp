@@ -8,7 +8,7 @@ ImplicitMixtureIce<D>::ImplicitMixtureIce(const GasScene& scene)
     : MixtureIce<D>(scene, false),
       acting_{.diffusion = {},
               .gravity = scene.gravity,
-              .push = this->takePush(),
+              .push = scene.push,
               .soundSpeedKnob = scene.implicit->soundSpeedKnob,
               .solver = scene.implicit->solver} {}
 

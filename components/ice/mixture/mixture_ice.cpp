@@ -100,6 +100,9 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (hasLevels_ && !areBlended())
     tasks.acrossMaterials("ice::closeShares", euler::closeShares<D>, gases_, modifies(euler::c::gasShare));
   scheduleSources(tasks);
+  if (!push_.isZero(0))
+    tasks.perPatch("euler::addForce", euler::addForce<D>, with(push_), requiresNew(euler::c::density),
+                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
@@ -138,9 +141,6 @@ void MixtureIce<D>::scheduleSources(TaskList& tasks) const {
                           requiresOld(delT), withoutMaterial(modifies(euler::c::momentum<D>)),
                           withoutMaterial(modifies(euler::c::totalEnergy)),
                           withoutMaterial(all<euler::DiffusionRims<D>>()));
-  if (!push_.isZero(0))
-    tasks.perPatch("euler::addForce", euler::addForce<D>, with(push_), requiresNew(euler::c::density),
-                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
 }
 
 template <int D>

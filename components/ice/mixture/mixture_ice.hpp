@@ -40,11 +40,8 @@ class MixtureIce : public Component, public reference::GasSolution {
  protected:
   const euler::Courant& courant() const { return courant_; }
   const Gases& held() const { return gases_; }
-  /// Adds the tasks that change the gases after their flow: conversion into another gas, viscosity, conduction, forces,
-  /// heat.
+  /// Adds the tasks that change the gases after their flow: conversion into another gas, viscosity, conduction.
   void scheduleSources(TaskList& tasks) const;
-  /// The driving force per volume [N/m³], which from then on is not added after the flow.
-  Vec3 takePush() { return std::exchange(push_, Vec3::Zero()); }
   /// Adds the task that limits the time step by diffusion, together with the given fraction of the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   /// Adds the heat exchange between gases, after all other tasks of the gases.
