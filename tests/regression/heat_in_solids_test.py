@@ -3,6 +3,7 @@
 those of the start."""
 import math
 import pathlib
+import re
 import sys
 import unittest
 
@@ -96,6 +97,17 @@ class HeatInSolids(SceneTest):
         text = text.replace("[2,2,1]</res>", f"[{resolution},2,1]</res>").replace("<delt_max>1<", "<delt_max>7e-4<")
         state = last_state(self.scene(text.replace(">.05<", f">{end}<")), "p.temperature")
         return [(float(x), float(t)) for x, t in zip(state["x [m]"], state["p.temperature [K]"])]
+
+    def test_a_given_temperature_needs_a_specific_heat(self):
+        """Without it, temperatures used to become not a number."""
+        text = scene("gimp", 0).replace(
+            '<Face side="x-"><BCType id="all" label="Symmetric" var="symmetry"/></Face>',
+            '<Face side="x-"><BCType id="all" label="Temperature" var="Dirichlet"><value>400</value></BCType></Face>')
+        for heat, code in ((1, 0), (0, 3)):
+            done = run(self.scene(re.sub("<specific_heat>.*?</specific_heat>", f"<specific_heat>{heat}</specific_heat>",
+                                         text)), "Time/max_Timesteps=5")
+            self.assertEqual(done.code, code, done.err)
+        self.assertIn("missing tag <specific_heat>: a side of the grid has a given Temperature", done.err)
 
     def test_particles_follow_given_temperatures_without_overshoot(self):
         """Until 29 November 2026, particles beside the side reached 540 K with two particles per cell, 567 K with

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "components/mpm/boundary_labels.hpp"
@@ -127,12 +128,29 @@ void nameMaterials(std::vector<Material>& materials) {
   }
 }
 
+namespace {
+
+/// Whether a side of the grid has a given temperature for a material.
+bool hasGivenTemperature(const Element& root, std::size_t material) {
+  const auto conditions = simulation::boundaryConditions(root);
+  return std::any_of(conditions.begin(), conditions.end(), [&](const Element& condition) {
+    const std::string id = condition.attribute("id").value_or("all");
+    return condition.attribute("label") == boundary::temperature.name &&
+           condition.attribute("var") == nameOf(grid::BoundaryKind::dirichlet) &&
+           (id == "all" || id == std::to_string(material));
+  });
+}
+
+}  // namespace
+
 void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const bool sharesHeat = problem.method.conductsHeat && problem.method.thermalContact;
   const auto tags = root.child("MaterialProperties")->child("MPM")->children("material");
   for (std::size_t m = 0; m < tags.size(); ++m) {
     const Material& material = problem.materials[m];
     if (material.specificHeat > 0) continue;
+    if (problem.method.conductsHeat && hasGivenTemperature(root, m))
+      diagnostics.error(tags[m], "missing tag <specific_heat>: a side of the grid has a given Temperature");
     if (material.model->changesTemperature())
       diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) +
                                      " is heated by plastic work");
