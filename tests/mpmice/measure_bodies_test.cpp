@@ -226,6 +226,38 @@ TYPED_TEST(BodiesAlongAxes, SweepWhatCellsGainOrLose) {
   }
 }
 
+TEST(SweptFaces, AreTheSameForTurnedMotionsInThreeDimensions) {
+  const ParticleBox<3> before{{0.4, 0.5, 0.3}, {0.5, 0.25, 0.75}};
+  const Vec<3> way(0.5, -0.375, 0.625);
+  const auto sweep = [&](const std::array<int, 3>& axes) {
+    Field<Vec<3>> swept(cube<3>(9), Vec<3>::Zero()), by = swept;
+    const SweptFaces<3> faces{swept.cells(), by.cells()};
+    ParticleBox<3> turned = before;
+    for (int d = 0; d < 3; ++d) {
+      turned.middle[axes[d]] = before.middle[d];
+      turned.edges[axes[d]] = before.edges[d];
+    }
+    ParticleBox<3> after = turned;
+    for (int d = 0; d < 3; ++d) after.middle[axes[d]] += way[d];
+    Sweeps<3>(faces).add(Index<3>::filled(4), turned, after);
+    return swept;
+  };
+  const auto straight = sweep({0, 1, 2});
+  double greatest = 0;
+  for (const std::array<int, 3> axes : {std::array{1, 0, 2}, {2, 1, 0}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}}) {
+    const auto turned = sweep(axes);
+    forEach<3>(cube<3>(9), [&](const Index<3>& cell) {
+      Index<3> other;
+      for (int d = 0; d < 3; ++d) other[axes[d]] = cell[d];
+      for (int d = 0; d < 3; ++d) {
+        EXPECT_NEAR(turned.seen()[other][axes[d]], straight.seen()[cell][d], 1e-16);
+        greatest = std::max(greatest, std::abs(straight.seen()[cell][d]));
+      }
+    });
+  }
+  EXPECT_GT(greatest, 1e-2);
+}
+
 TYPED_TEST(BodiesAlongAxes, SweepTheirCrossSectionTimesTheirWay) {
   constexpr int D = TypeParam::value;
   Field<Vec<D>> swept(cube<D>(5), Vec<D>::Zero());

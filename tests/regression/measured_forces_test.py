@@ -103,6 +103,28 @@ class Measured(SceneTest):
             self.assertAlmostEqual(momentum / (5e5 * .0625 * time), 1, delta=2e-2)
         self.assertAlmostEqual(implicit["StrainEnergy"][0][1] / explicit["StrainEnergy"][0][1], 1, delta=1e-12)
 
+    def test_the_centre_of_a_stretched_bar_moves_also_on_a_grid_that_goes_along(self):
+        bar = body(box("[0,0,0]", "[.5,.25,.25]"))
+        die = body(box("[.5,0,0]", "[.625,.25,.25]"), velocity="[1,0,0]").replace(
+            "<density>", "<is_rigid>true</is_rigid><density>", 1)
+        contact = ("<contact><type>rigid</type><master_material>1</master_material><materials>[0,1]</materials>"
+                   "<direction>[1,0,0]</direction></contact>")
+        places = []
+        for resets in ("true", "false"):
+            found = self.globals("CenterOfMassPosition", materials=bar + die, upper="[1,.25,.25]", cells="[8,2,2]",
+                                 faces=OPEN, component="impm", end=.02, step=.005, multiplier=1, contact=contact,
+                                 times="<delt_init>.005</delt_init>",
+                                 mpm=f"<dynamic>false</dynamic><do_grid_reset>{resets}</do_grid_reset>")
+            places.append([line[1] for line in found["CenterOfMassPosition"]])
+        self.assertGreater(places[1][-1], places[1][0] * 1.01)
+        self.assertAlmostEqual(places[1][-1] / places[0][-1], 1, delta=1e-3)
+
+    def test_the_budget_leaves_out_the_strain_of_rigid_bodies(self):
+        rigid = body(box("[0,0,0]", "[.5,.25,.25]")).replace("<density>", "<is_rigid>true</is_rigid><density>", 1)
+        text = rigid.replace("<velocity>[0,0,0]", "<velocity>[1 - 2*x,0,0]")
+        found = self.globals("StrainWork", materials=text, upper="[1,.25,.25]", cells="[8,2,2]", faces=(), end=.1)
+        self.assertEqual({line[1] for line in found["StrainWork"]}, {0})
+
     def test_a_pressure_around_a_body_that_starts_elsewhere_pushes_it_nowhere(self):
         disc = "<cylinder><bottom>[{0},.5,-1]</bottom><top>[{0},.5,1]</top><radius>.25</radius></cylinder>"
         loads = ("<PhysicalBC><MPM><pressure><geom_object>" + disc.format(.5) + "</geom_object><load_curve><id>1</id>"

@@ -29,6 +29,15 @@ grid::Domain unitBox(int cells) {
   return domain;
 }
 
+/// A square of 2 m in 8 x 4 cells, one cell of .1 m thick, in three dimensions.
+inline grid::Domain sheet() {
+  grid::Domain domain;
+  domain.lower = {-1, -1, 0};
+  domain.upper = {1, 1, 0.1};
+  domain.resolution = {{8, 4, 1}};
+  return domain;
+}
+
 /// A plane grid of cells of 1 m, without boundary conditions.
 inline grid::Domain unitCells(int x, int y) {
   grid::Domain domain;

@@ -10,6 +10,7 @@
 
 #include "components/mpm/solid/material.hpp"
 #include "tests/input/support.hpp"
+#include "tests/support/levels.hpp"
 #include "tests/support/temporary.hpp"
 
 // Bodies whose particles a file lists.
@@ -37,14 +38,7 @@ Lines problemsOf(const std::string& content, const std::string& tags = "") {
   return lines;
 }
 
-/// Cells of .25 x .5 x .1 m, one of them along z.
-grid::Level sheet() {
-  grid::Domain domain;
-  domain.lower = {-1, -1, 0};
-  domain.upper = {1, 1, 0.1};
-  domain.resolution = {{8, 4, 1}};
-  return grid::Level(domain);
-}
+grid::Level sheet() { return grid::Level(test::sheet()); }
 
 Body bodyOf(const std::string& content, const std::string& tags) {
   Diagnostics diagnostics;

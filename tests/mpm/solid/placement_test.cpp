@@ -9,20 +9,14 @@
 #include "components/mpm/solid/material.hpp"
 #include "core/input/geometry/shapes.hpp"
 #include "core/input/geometry/smooth_cylinder.hpp"
+#include "tests/support/levels.hpp"
 
 // Bodies whose particles start elsewhere than in equal parts of cells.
 
 namespace tushar::mpm::solid {
 namespace {
 
-/// A square of 2 m in 8 x 4 cells, one cell thick, in three dimensions.
-grid::Level sheet() {
-  grid::Domain domain;
-  domain.lower = {-1, -1, 0};
-  domain.upper = {1, 1, 0.1};
-  domain.resolution = {{8, 4, 1}};
-  return grid::Level(domain);
-}
+grid::Level sheet() { return grid::Level(test::sheet()); }
 
 Body discOf(double radius, int levels) {
   auto disc = std::make_shared<input::Cylinder>();

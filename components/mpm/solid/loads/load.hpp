@@ -96,7 +96,7 @@ void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&&
   }
 }
 
-/// The distance between the particles of a body along x, y, z [m].
+/// The distance along x, y, z [m] between the particle of a body that starts at `point` and its neighbours.
 Vec3 particleSpacing(const grid::Level& level, const Body& body, const Vec3& point);
 /// Whether a particle that starts at `point` is at the surface of its body: at least one neighbouring particle would be
 /// outside. Neighbours along an axis with one cell are ignored.
