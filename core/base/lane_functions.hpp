@@ -26,12 +26,4 @@ inline Lanes exponential(Lanes x) {
   return sum * power;
 }
 
-/// tanh x, absolute error at most 3e-16.
-inline Lanes hyperbolicTangent(Lanes x) {
-  const Lanes size = select(x < Lanes(0.0), -x, x);
-  const Lanes e = exponential(select(size < Lanes(20.0), 2 * size, Lanes(40.0)));
-  const Lanes tangent = (e - 1.0) / (e + 1.0);
-  return select(x < Lanes(0.0), -tangent, tangent);
-}
-
 }  // namespace tushar

@@ -63,28 +63,37 @@ Column<N> solved(Square<N> a, Column<N> b) {
   return b;
 }
 
-/// The particles of a regression, one list for each coordinate, filled up to whole registers.
+/// The particles of a regression, one list for each coordinate, filled up to whole registers. With X = phi . (x, 1) and
+/// c = 1 for the particles of other bodies, -1 for those of the leader, the function f = tanh(X / 2) approximates c.
 template <int D>
 struct Regression {
   std::array<std::vector<double>, D> x;  ///< coordinates relative to the node [m]
-  std::vector<double> side, f;           ///< 1 or -1, and f for the current phi
+  std::vector<double> side;              ///< c
+  std::vector<double> slope, missing;    ///< df/dX and (c - f) df/dX for the current phi
   std::size_t count;
 
   explicit Regression(const std::vector<SidedParticle<D>>& particles) : count(particles.size()) {
     const std::size_t whole = (count + Lanes::count - 1) / Lanes::count * Lanes::count;
     for (std::vector<double>& list : x) list.resize(whole);
-    side.resize(whole);
-    f.resize(whole);
+    for (std::vector<double>* list : {&side, &slope, &missing}) list->resize(whole);
     for (std::size_t p = 0; p < count; ++p) {
       for (int d = 0; d < D; ++d) x[d][p] = particles[p].x[d];
       side[p] = particles[p].isOther ? 1.0 : -1.0;
     }
   }
+  /// Far from the plane, f differs from c by less than the rounding error of 1, and df/dX by as little from 0. So both
+  /// are found from e^|X|, not from f.
   void evaluate(const Column<D + 1>& phi) {
-    for (std::size_t p = 0; p < f.size(); p += Lanes::count) {
+    for (std::size_t p = 0; p < slope.size(); p += Lanes::count) {
       Lanes sum = phi[0] * Lanes::at(&x[0][p]);
       for (int d = 1; d < D; ++d) sum += phi[d] * Lanes::at(&x[d][p]);
-      hyperbolicTangent(0.5 * (sum + phi[D])).copyTo(&f[p]);
+      sum += phi[D];
+      const Lanes c = Lanes::at(&side[p]), size = select(sum < Lanes(0.0), -sum, sum);
+      const Lanes e = exponential(select(size < Lanes(700.0), size, Lanes(700.0)));
+      const Lanes inverse = 1.0 / (e + 1.0), steep = 2.0 * e * inverse * inverse;
+      const Lanes distance = select(sum * c < Lanes(0.0), 2.0 * e * inverse, 2.0 * inverse);
+      steep.copyTo(&slope[p]);
+      (steep * distance * c).copyTo(&missing[p]);
     }
   }
 };
@@ -103,11 +112,11 @@ Column<D + 1> step(Regression<D>& particles, double lambda, const Column<D + 1>&
     std::array<double, D + 1> x;
     for (int d = 0; d < D; ++d) x[d] = particles.x[d][p];
     x[D] = 1;
-    const double f = particles.f[p], slope = 0.5 * (1 - f * f), missing = slope * (particles.side[p] - f);
+    const double slope = particles.slope[p];
     for (int i = 0; i <= D; ++i) {
       const double weighted = slope * slope * x[i];
       for (int j = i; j <= D; ++j) matrix[i][j] += weighted * x[j];
-      right[i] += missing * x[i];
+      right[i] += particles.missing[p] * x[i];
     }
   }
   Square<D + 1> all;

@@ -187,7 +187,7 @@ template <int D>
 void SolidsOf<D>::scheduleCornerLoads(TaskList& tasks) const {
   if (!problem_.method.loadsAtCorners || !isLoaded()) return;
   tasks.perMaterial("mpm::addLoadsAtCorners", addLoadsAtCorners<D>, problem_.materials, with(problem_.start.loads),
-                    with(problem_.method.commonSize), startTime(),
+                    with(problem_.method.commonSize), with(shapes_.haveSizes && !shapes_.deform), startTime(),
                     all<LoadedParticles<D>>(boxSizes(), static_cast<int>(cornerReach)), modifies(g::record));
 }
 

@@ -178,6 +178,17 @@ TEST(CornerLoad, PutsAllOfAForceOnTheNodesAround) {
   EXPECT_EQ(records[nodes.offset(Index3{{0, 0, 0}})][lane::force], 8 * 0.75 * 0.5);
 }
 
+TEST(CornerLoad, LeavesOutNodesThatGimpReachesAlmostNotAtAll) {
+  const TwoParticles two;
+  const double h = two.level.spacing(0), edge = 0.5 * h, node = two.level.nodePosition(0, 1);
+  const double barely = node + h + 0.5 * edge - 1e-6 * h, well = node + h + 0.5 * edge - 1e-2 * h;
+  EXPECT_NEAR(roomOfCorners<2>(two.level, 0, barely, edge, true)[0], node + h, 1e-15);
+  EXPECT_NEAR(roomOfCorners<2>(two.level, 0, well, edge, true)[0], well - h, 1e-15);
+  EXPECT_NEAR(roomOfCorners<2>(two.level, 0, barely, edge, false)[0], barely - h, 1e-15);
+  const double below = node - h - 0.5 * edge + 1e-6 * h;
+  EXPECT_NEAR(roomOfCorners<2>(two.level, 0, below, edge, true)[1], node - h, 1e-15);
+}
+
 TEST(Load, ActsOnBodiesInABoxAndAParticlesSpacingBeyond) {
   const BodyLoad load{Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3::Zero()};
   const Vec3 spacing(0.1, 0.1, 0.1);

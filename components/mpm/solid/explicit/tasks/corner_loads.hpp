@@ -74,21 +74,38 @@ void addForceAt(const Level& level, const Vec<D>& x, const Vec<D>& force, NodeVi
   }
 }
 
-/// Adds the forces of loads to the nodes around the corners on which the loads act. A corner lies at most a cell from
-/// the middle of its particle along each axis.
+/// Where the corners of a particle at x may lie along an axis: at most a cell from x. For GIMP functions, whose extent
+/// `edge` [m] does not follow F, also between nodes within reach of the particle, less .001 of a cell. Otherwise, the
+/// corner of a turned particle could push a node to which its particle gives almost no mass: the force falls with the
+/// distance to the edge of the support, the mass with its square, and the velocity of the node would be without bounds.
+template <int D>
+std::array<double, 2> roomOfCorners(const Level& level, int d, double x, double edge, bool isGimp) {
+  const double h = level.spacing(d), reach = h + 0.5 * edge - 0.001 * h, first = level.nodePosition(d, 0);
+  if (!isGimp) return {x - h, x + h};
+  return {std::max(x - h, first + h * std::ceil((x - reach - first) / h)),
+          std::min(x + h, first + h * std::floor((x + reach - first) / h))};
+}
+
+/// Adds the forces of loads to the nodes around the corners on which the loads act. `isGimp` tells whether shape
+/// functions contain the sizes of particles, but do not follow F.
 template <int D>
 void addLoadsAtCorners(const Patch& patch, const Material& material, const Loads& loads, const Vec3& commonSize,
-                       double time, const LoadedParticles<D>& particles, NodeView<NodeRecord> record) {
+                       bool isGimp, double time, const LoadedParticles<D>& particles, NodeView<NodeRecord> record) {
   const Level& level = patch.level();
   const auto& x = particles.x;
   x.template forEachOccupied<D>(x.cells(), [&](const Index<D>&, const data::ParticleRange& range) {
     for (const int p : range) {
       if (particles.loadCurves[p] == 0) continue;
-      const auto load = cornerLoad(loads, particles.loadCurves[p], particles.box(level, commonSize, p), time);
+      const ParticleBox box = particles.box(level, commonSize, p);
+      const auto load = cornerLoad(loads, particles.loadCurves[p], box, time);
       if (!load) continue;
       for (const Vec3& corner : load->corners) {
         Vec<D> at = level.reduce<D>(corner);
-        for (int d = 0; d < D; ++d) at[d] = std::clamp(at[d], x[p][d] - level.spacing(d), x[p][d] + level.spacing(d));
+        for (int d = 0; d < D; ++d) {
+          const double edge = box.startEdges(level.axis(d), level.axis(d));
+          const auto [lowest, highest] = roomOfCorners<D>(level, d, x[p][d], edge, isGimp);
+          at[d] = std::clamp(at[d], lowest, highest);
+        }
         addForceAt<D>(level, at, Vec<D>(0.25 * level.reduce<D>(load->force)), record);
       }
     }

@@ -10,6 +10,10 @@
 
 namespace tushar::mpm::solid {
 
+/// Particles with a smaller weight at a node are ignored there: those at the edge of its support, whose weight may be 0
+/// or round-off.
+inline constexpr double leastWeight = 1e-8;
+
 /// Views of the variables of a material that separateBodies reads and writes.
 template <int D>
 struct PlaneSources {
@@ -51,7 +55,7 @@ void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSour
   forEachStencil<Shape>(patch, x.cells(), of.particles, commonSize, [&](int p, const auto& stencil) {
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
       const int k = nodes[node];
-      if (k < 0 || s <= 1e-8) return;
+      if (k < 0 || s <= leastWeight) return;
       Vec<D> away;
       for (int d = 0; d < D; ++d) away[d] = x[p][d] - patch.level().nodePosition(d, node[d]);
       nodes.particles[k].push_back({away, m != nodes.leader[k]});
@@ -71,7 +75,7 @@ void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const 
     const auto edges = of.template halfEdges<Shape>(patch.level(), commonSize, p);
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
       const int k = nodes[node];
-      if (k < 0 || s <= 0) return;
+      if (k < 0 || s <= leastWeight) return;
       const Vec<D>& normal = normals[k];
       const double middle = x[p].dot(normal), half = (edges.transpose() * normal).cwiseAbs().maxCoeff();
       double& reach = of.prominence[node];
