@@ -28,6 +28,14 @@ void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> de
   }
 }
 
+/// Whether a scene asks for a temperature without gradient at a place where it prescribes the pressure, but neither
+/// density nor temperature.
+bool keepsTemperature(const Place& place, const Gas& gas) {
+  const auto given = place.level.boundary(place.axis, place.side, boundary::temperature, gas.material, place.part);
+  return given && !given->isDirichlet() && given->value == 0 && !gas.isBarotropic() && pressureAt(place, gas) &&
+         !givenAt(place, gas, boundary::density);
+}
+
 /// The relaxation at a side that lets waves out; no relaxation at other sides.
 Relaxation relaxationAt(const Place& place, const Gas& gas) {
   const auto given = givenAt(place, gas, boundary::waves);
@@ -60,6 +68,8 @@ GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
     for (int k = 0; k < D; ++k) prescribe(kVelocity(k), v[k]);
   }
   auto density = givenAt(place, gas, boundary::density), pressure = pressureAt(place, gas);
+  rule.keepsTemperature = keepsTemperature(place, gas);
+  if (rule.keepsTemperature) rule.gas = &gas;
   if (gas.law) {
     prescribeByLaw<D>(place, gas, density, pressure, rule);
     return rule;
@@ -107,10 +117,12 @@ GhostRule<D> diffusionRule(const Place& place, const Gas& gas) {
   return rule;
 }
 
-/// Whether any condition at a side is a formula.
-bool hasFormulas(const Level& level, int axis, int side) {
-  const auto hasSome = [](const std::vector<grid::BoundaryCondition>& conditions) {
-    return std::any_of(conditions.begin(), conditions.end(), [](const auto& one) { return one.formula != nullptr; });
+/// Whether any condition at a side depends on the place: a formula, or a pressure that rises by the weight of the gas.
+bool dependsOnPlace(const Level& level, const Gas& gas, int axis, int side) {
+  const auto hasSome = [&](const std::vector<grid::BoundaryCondition>& conditions) {
+    return std::any_of(conditions.begin(), conditions.end(), [&](const auto& one) {
+      return one.formula || (one.variable.name == boundary::pressure.name && !gas.weight.isZero(0));
+    });
   };
   const auto& parts = level.parts(axis, side);
   return hasSome(level.domain().boundaries.face(level.axis(axis), side)) ||
@@ -148,7 +160,7 @@ GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, const Box
     for (int side = 0; side < 2; ++side) {
       if (side == 0 ? box.lower[d] >= 0 : box.upper[d] <= level.cells().upper[d]) continue;
       SideRules<D>& of = rules[d][side];
-      if (hasFormulas(level, d, side)) {
+      if (dependsOnPlace(level, gas, d, side)) {
         of.varying = [&level, gas, d, side, time, makeRule, pointAt](int part, const Index<D>& cell) {
           const Place place{level, d, side, part, pointAt(d, side, cell), time};
           Index<D> nearest = level.wrapped<D>(cell);
@@ -168,11 +180,18 @@ GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, const Box
 }  // namespace
 
 std::optional<double> pressureAt(const Place& place, const Gas& gas) {
-  const auto own = givenAt(place, gas, boundary::pressure);
-  if (own || gas.material == 0) return own;
-  Gas first = gas;
-  first.material = 0;
-  return givenAt(place, first, boundary::pressure);
+  auto given = givenAt(place, gas, boundary::pressure);
+  if (!given && gas.material != 0) {
+    Gas first = gas;
+    first.material = 0;
+    given = givenAt(place, first, boundary::pressure);
+  }
+  if (!given || gas.weight.isZero(0)) return given;
+  const grid::Domain& domain = place.level.domain();
+  Vec3 from = domain.lower;
+  for (int axis = 0; axis < 3; ++axis)
+    from[axis] += 0.5 * (domain.upper[axis] - domain.lower[axis]) / domain.resolution[axis];
+  return *given + gas.weight.dot(place.x - from);
 }
 
 template <int D>

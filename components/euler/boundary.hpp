@@ -39,12 +39,18 @@ template <int D>
 struct GhostRule {
   bool mirrored = false;
   State<D> factor, value;
-  double densityOfPressure = 0;  ///< if greater than 0, rho is (p + p_inf) times this number [kg/(m³ Pa)]
-  double pInfinity = 0;          ///< p_inf [Pa]
-  double temperature = 0;        ///< if greater than 0, the temperature of a gas with its own law [K]
-  const Gas* gas = nullptr;      ///< the only gas, if the rule depends on its law
-  Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
-  Mixture<kMostGases> laws;      ///< laws of several gases, used by the relaxation
+  double densityOfPressure = 0;   ///< if greater than 0, rho is (p + p_inf) times this number [kg/(m³ Pa)]
+  double pInfinity = 0;           ///< p_inf [Pa]
+  double temperature = 0;         ///< if greater than 0, the temperature of a gas with its own law [K]
+  bool keepsTemperature = false;  ///< whether the temperature continues instead of rho, beyond a prescribed pressure
+  const Gas* gas = nullptr;       ///< the only gas, if the rule depends on its law
+  Relaxation relaxes = {};        ///< relaxation at a side that lets waves out
+  Mixture<kMostGases> laws;       ///< laws of several gases, used by the relaxation
+
+  /// Whether each component of the state beyond is a factor times that inside, plus a value.
+  bool isLinear() const {
+    return !(densityOfPressure > 0) && !(temperature > 0) && !keepsTemperature && !relaxes.acts();
+  }
 };
 
 /// The rules of a side: a rule for each of its parts and, as the base class, the rule for the rest of the side.
@@ -78,7 +84,8 @@ std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel
   return condition && condition->isDirichlet() ? std::optional(condition->at(place.x, place.time)) : std::nullopt;
 }
 /// The pressure that a scene prescribes at a place, if any. All materials share it, because Uintah's scenes give it for
-/// material 0.
+/// material 0. If the gas has a weight, it is hydrostatic: the scene's value is that at the centre of the first cell,
+/// and at x it is higher by the weight times (x - centre).
 std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
 /// Whether a place is a wall: it has the condition Symmetric, or only a Velocity that is tangential to the side.
@@ -87,7 +94,9 @@ bool isWall(const Place& place, const Gas& gas);
 
 /// The rules that follow from the scene's conditions. A wall mirrors the gas. At a side with Density, Velocity or
 /// Pressure, gas with these values flows in; a Temperature given with one of density and pressure determines the other.
-/// Quantities that are not given continue without gradient, so a side without conditions is an outflow.
+/// Quantities that are not given continue without gradient, so a side without conditions is an outflow. Of density and
+/// temperature, the density continues beside a given pressure, except if the scene asks for a Temperature without
+/// gradient; several gases keep their densities.
 ///
 /// Formulas are evaluated at `time` [s] in the centre of each cell beyond the side, and their results are used like
 /// values. Throws NumericalError if a formula gives an impossible density or p + p_inf.
@@ -106,6 +115,7 @@ GhostRules<D> withLaws(GhostRules<D> rules, const Mixture<K>& laws) {
   const auto takeLaws = [all](GhostRule<D>& rule) {
     rule.laws = all;
     rule.gas = nullptr;
+    rule.keepsTemperature = false;
   };
   for (auto& sides : rules)
     for (SideRules<D>& side : sides) {

@@ -64,15 +64,24 @@ void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
     w[kPressure<D>] -= half;
 }
 
+/// The density [kg/m³] at a pressure [Pa] and the temperature of a state with a density and a last component.
+double densityAtSameHeat(const Gas& gas, double density, double last, double pressure) {
+  if (!gas.law) return density * (pressure + gas.pInfinity) / (last + gas.pInfinity);
+  return gas.densityAt(pressure, gas.temperature(density, gas.energyOf(density, last)));
+}
+
 /// The state at a distance of `cells` cells beyond a side, from a rule and the state `w` of the cell inside.
 template <int D, std::size_t N>
 std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array<double, N> w) {
+  const double density = w[kDensity], last = w[kPressure<D>];
   for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
   if (rule.densityOfPressure > 0) w[kDensity] = rule.densityOfPressure * (w[kPressure<D>] + rule.pInfinity);
   if (rule.temperature > 0 && rule.gas->isBarotropic())
     w[kPressure<D>] = rule.gas->lastAt(w[kDensity], rule.temperature);
   else if (rule.temperature > 0)
     w[kDensity] = rule.gas->densityAt(w[kPressure<D>], rule.temperature);
+  if (kGasesIn<D, N> == 1 && rule.keepsTemperature)
+    w[kDensity] = densityAtSameHeat(*rule.gas, density, last, w[kPressure<D>]);
   if (rule.relaxes.acts()) relax<D>(rule, cells, w);
   return w;
 }
@@ -82,8 +91,7 @@ std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array
 template <int D, std::size_t N>
 void fillLine(const GhostRule<D>& rule, int depth, const std::array<double*, N>& from, int count, std::ptrdiff_t step,
               const std::array<double*, N>& to) {
-  const bool isLinear = !(rule.densityOfPressure > 0) && !(rule.temperature > 0) && !rule.relaxes.acts();
-  if (!isLinear) {
+  if (!rule.isLinear()) {
     for (int i = 0; i < count; ++i) store<D>(to, i * step, beyondSide<D>(rule, depth, load<D>(from, i * step)));
     return;
   }
@@ -127,7 +135,7 @@ void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyo
 /// Whether a rule only reverses velocities.
 template <int D>
 bool reversesOnly(const GhostRule<D>& rule) {
-  bool only = !(rule.densityOfPressure > 0) && !(rule.temperature > 0) && !rule.relaxes.acts();
+  bool only = rule.isLinear();
   for (std::size_t k = 0; k < rule.factor.size(); ++k) {
     const bool isVelocity = k != kDensity && k != kPressure<D>;
     only = only && rule.value[k] == 0 && (rule.factor[k] == 1 || (isVelocity && rule.factor[k] == -1));
@@ -149,10 +157,7 @@ template <int D>
 bool commute(const SideRules<D>& one, const SideRules<D>& other) {
   if (!one.areOne() || !other.areOne()) return false;
   if (isBlindTo<D>(one, other) || isBlindTo<D>(other, one)) return true;
-  const auto isLinear = [](const GhostRule<D>& rule) {
-    return !(rule.densityOfPressure > 0) && !(rule.temperature > 0) && !rule.relaxes.acts();
-  };
-  bool may = isLinear(one) && isLinear(other);
+  bool may = one.isLinear() && other.isLinear();
   for (std::size_t k = 0; k < one.factor.size(); ++k) {
     const bool areEqual = one.factor[k] == other.factor[k] && one.value[k] == other.value[k];
     const bool areFactors = one.value[k] == 0 && other.value[k] == 0;

@@ -11,6 +11,7 @@
 #include "components/euler/curved_gas.hpp"
 #include "components/euler/real_gas.hpp"
 #include "core/base/limiters.hpp"
+#include "core/base/vec.hpp"
 
 namespace tushar::euler {
 
@@ -69,6 +70,8 @@ struct Gas {
   double specificHeat = 0;                   ///< c_v [J/(kg K)]; 0: the temperature is unknown
   int material = 0;                          ///< index of the gas in the scene, for boundary conditions
   std::shared_ptr<const Law> law = nullptr;  ///< the gas's own law; null for a stiffened gas
+  /// Weight per volume of the gas around [N/m³], by which the pressures that sides prescribe rise; see pressureAt.
+  Vec3 weight = Vec3::Zero();
 
   /// Calls `use` with the gas as a StiffenedGas, or with its own law, so that loops branch on the law only once, before
   /// they start.

@@ -177,17 +177,17 @@ void takeModels(ModelsSection& models, const Element& root, int solids, GasScene
                       "<SimulationComponent type=\"mpmice\"/>");
 }
 
-/// Half the size of the Box of the first Level [m]: the centre of Uintah's <counterflow>.
-Vec3 middleOf(const Element& root) {
+/// A corner of the Box of the first Level [m], by its tag.
+Vec3 cornerOf(const Element& root, const char* name) {
   const auto grid = root.child("Grid");
   const auto level = grid ? grid->child("Level") : std::nullopt;
   const auto box = level ? level->child("Box") : std::nullopt;
-  const auto corner = [&](const char* name) {
-    const auto tag = box ? box->child(name) : std::nullopt;
-    return tag ? input::parse<Vec3>(tag->text()).value.value_or(Vec3::Zero()) : Vec3::Zero();
-  };
-  return 0.5 * (corner("upper") - corner("lower"));
+  const auto tag = box ? box->child(name) : std::nullopt;
+  return tag ? input::parse<Vec3>(tag->text()).value.value_or(Vec3::Zero()) : Vec3::Zero();
 }
+
+/// Half the size of the Box of the first Level [m]: the centre of Uintah's <counterflow>.
+Vec3 middleOf(const Element& root) { return 0.5 * (cornerOf(root, "upper") - cornerOf(root, "lower")); }
 
 /// Applies the velocity and the temperature of <customInitialization> to the initial gas.
 void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& materials, const Element& root,
@@ -199,6 +199,31 @@ void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& m
                                                                     double& temperature) {
     start.apply(point, {rho, gasConstant, middle}, velocity, temperature);
   };
+}
+
+/// The density of a gas in the corner of the grid at the start [kg/m³].
+double densityInCorner(const GasMaterial& gas, const Element& root) {
+  const Vec3 corner = cornerOf(root, "lower");
+  const GasBody* there = &gas.bodies.front();
+  for (const GasBody& body : gas.bodies)
+    if (body.shape->contains(corner)) there = &body;
+  return there->density(corner);
+}
+
+/// Lets the pressures that sides prescribe rise by the weight of the gas around the others.
+void takeWeight(const IceSection& ice, const std::vector<GasMaterial>& materials, const Element& root, GasScene& scene,
+                Diagnostics& diagnostics) {
+  if (scene.gravity.isZero(0) || !ice.isHydrostatic.value_or(true)) return;
+  const auto around =
+      std::find_if(materials.begin(), materials.end(), [](const GasMaterial& one) { return one.isAround; });
+  if (around == materials.end()) {
+    if (ice.isHydrostatic)
+      diagnostics.error(*root.child("CFD")->child("ICE")->child("applyHydrostaticPressure"),
+                        "needs a gas with <isSurroundingMatl> true, whose weight is to count");
+    return;
+  }
+  scene.gas.gas.weight = densityInCorner(*around, root) * scene.gravity;
+  for (euler::Settings& one : scene.mixture) one.gas.weight = scene.gas.gas.weight;
 }
 
 }  // namespace
@@ -238,6 +263,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   }
   if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
   readMaterials(materials, root, solids, scene, diagnostics);
+  if (diagnostics.size() == before) takeWeight(cfd.ice, materials, root, scene, diagnostics);
   if (scene.tracers && diagnostics.size() == before) checkTracers(scene, solids, diagnostics);
   return scene;
 }

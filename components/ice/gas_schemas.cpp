@@ -156,7 +156,11 @@ const Schema<IceSection>& iceSchema() {
         .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells")
         .section("ADD_HEAT", &IceSection::heating, heatingSchema(), "heat from outside");
     input::refuseTag(tags, "wallShearStress", "the gas does not slip along a wall with a Velocity");
-    input::refuseSwitch(tags, "applyHydrostaticPressure", "give the initial <density> as a formula");
+    tags.optional(
+        "applyHydrostaticPressure", &IceSection::isHydrostatic, "1",
+        "whether, with gravity g, the Pressure of sides is that at the centre x0 of the first cell, and rises "
+        "by rho g (x - x0), where rho is the initial density of the gas with <isSurroundingMatl>; by default, "
+        "if there is one");
     return tags;
   }();
   return schema;
@@ -225,7 +229,8 @@ const Schema<GasMaterial>& materialSchema() {
               "the gas of a region at the start; where regions overlap, the last one applies; regions must cover the "
               "grid",
               1)
-        .ignored("isSurroundingMatl", "it has no effect")
+        .value("isSurroundingMatl", &GasMaterial::isAround, false, "1",
+               "whether it is the gas around the others; see <applyHydrostaticPressure>")
         .ignored("tiny_rho", "it has no effect");
     input::refuseSwitch(tags, "includeFlowWork", "the total energy is conserved, including all work");
     tags.section("SpecificHeatModel", &GasMaterial::air, airSchema(), "a c_v that depends on the temperature");

@@ -69,6 +69,7 @@ struct IceSection {
   std::optional<PushSection> push;
   std::optional<EddiesSection> eddies;
   std::optional<HeatingSection> heating;
+  std::optional<bool> isHydrostatic;  ///< whether the Pressure of sides rises by the weight of the gas around
 };
 
 /// The tag `CFD`.
@@ -107,6 +108,7 @@ struct GasMaterial {
   euler::VaryingDiffusion varying;
   std::optional<AirSection> air;
   std::vector<GasBody> bodies;
+  bool isAround = false;  ///< whether it is the gas around the others, whose weight counts at sides
 
   /// The law of the gas; null for an ideal gas of constant c_v, and for a stiffened one.
   std::shared_ptr<const euler::Gas::Law> law() const;

@@ -84,8 +84,9 @@ class PlaneFriction(SceneTest):
 
 
     def test_round_off_does_not_decide_when_bodies_touch(self):
-        """A block with the velocity (.5, -.5) m/s meets a bar at rest, in a grid that begins at several places. Until 29
-        November 2026, particles at the edge of their support counted at a node or not, and energies differed by 5e-3."""
+        """A block with the velocity (.5, -.5) m/s meets a bar at rest, in a grid that begins at several places. Until
+        29 November 2026, particles at the edge of their support counted at a node or not, and energies differed by
+        5e-3."""
         energies = []
         for x, y in ((0, 0), (.3, .7), (1 / 3, -2 / 3)):
             text = MEETING.format(grid=f"<lower>[{x},{y},0]</lower><upper>[{x + 1},{y + .6},.1]</upper>",

@@ -47,6 +47,14 @@ class ForceTransmitting(Scenes):
         last = self.lines(falling, "TotalMomentum", until=.02)[-1]
         self.assertAlmostEqual(last[1], 10 - 10 * 10 * last[0], delta=1e-3)  # of the target alone, of 10 kg, too
 
+    def test_contacts_that_it_does_not_feel_are_refused(self):
+        """Until 29 November 2026, the other body was pushed, and momentum and energy arose."""
+        for kind in ("friction</type><mu>.1</mu>", "single_velocity</type>"):
+            done = run(self.scene(HAMMER.replace("rigid</type><direction>[1,1,1]</direction>", kind)),
+                       "Time/max_Timesteps=1")
+            self.assertEqual(done.code, 3, done.err)
+            self.assertIn("feels only contacts of type rigid or specified of which it is the master", done.err)
+
     def test_patches_threads_and_ranks_change_no_bit(self):
         scene = self.scene(PUSHED)
         prints = {run(scene, f"Grid/Level/Box/patches={patches}", "Time/max_Timesteps=60",

@@ -40,6 +40,22 @@ void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnost
   }
 }
 
+/// Refuses contacts whose force a body with is_force_transmitting_material would not feel.
+void checkTransmitters(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const Element mpm = root.child("MaterialProperties")->child("MPM").value();
+  const auto tags = mpm.children("material");
+  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+    if (!problem.materials[m].transmitsForce) continue;
+    for (const Contact& contact : problem.contacts) {
+      const bool isItsMaster = contact.type == Contact::Type::specified && contact.master == static_cast<int>(m);
+      if (!isItsMaster && contact.concerns(static_cast<int>(m)))
+        diagnostics.error(tags[m].child("is_force_transmitting_material").value(),
+                          "the body feels only contacts of type rigid or specified of which it is the master: leave it "
+                          "out of the <materials> of the others");
+    }
+  }
+}
+
 /// Refuses loads that have no effect because of another setting.
 void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Loads& loads = problem.start.loads;
@@ -61,6 +77,7 @@ void checkProblem(const Problem& problem, const Element& root, Diagnostics& diag
   checkLoads(problem, root, diagnostics);
   checkCorners(problem, root, diagnostics);
   checkContactsOfMethod(problem, root, diagnostics);
+  checkTransmitters(problem, root, diagnostics);
 }
 
 }  // namespace tushar::mpm::solid
