@@ -132,13 +132,15 @@ struct ElasticPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// Increase of the temperature due to plastic work, chi sigma_y de_p / (rho c), and to the change of volume.
+  /// Increase of the temperature due to plastic work and the work of dashpots, chi (sigma_y de_p + sum s_j:s_j dt / (2
+  /// mu_j tau_j)) / (rho c), and to the change of volume.
   double temperatureChange(const Deformation& d, const Matrix3& stress, const State& state) const {
     const double equivalent = std::sqrt(1.5) * deviator(stress).norm(), j = d.deformationGradient.determinant();
     const VolumeState volume = volumeState(d, 0, 0);
     const double byVolume = std::visit([&](const auto& model) { return model.heating(volume); }, equationOfState);
-    if (state.plasticStrainRate == 0) return byVolume;
-    const double work = equivalent * state.plasticStrainRate * d.timeStep;
+    double work = equivalent * state.plasticStrainRate * d.timeStep;
+    if (maxwell()) work += maxwell()->dissipation(state.maxwell) * d.timeStep;
+    if (work == 0) return byVolume;
     return byVolume + heatedShare * work * j / (material.density * heatCapacity(d.deformationGradient, d.temperature));
   }
   double heatCapacity(const Matrix3& deformation, double temperature) const {

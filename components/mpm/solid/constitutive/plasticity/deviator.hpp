@@ -48,6 +48,13 @@ struct MaxwellDeviator {
     for (int j = 0; j < count; ++j) sum += step(j, timeStep).gained * modulus[j];
     return sum;
   }
+  /// Power of the dashpots per volume, sum s_j:s_j / (2 mu_j tau_j) [W/m³], with the stress deviators s_j [Pa].
+  double dissipation(const std::array<Tensor, greatestCount>& deviators) const {
+    double sum = 0;
+    for (int j = 0; j < count; ++j)
+      if (modulus[j] > 0) sum += matrixOf(deviators[j]).squaredNorm() / (2 * modulus[j] * time[j]);
+    return sum;
+  }
 
  private:
   static input::Schema<MaxwellDeviator> makeSchema() {
