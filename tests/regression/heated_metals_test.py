@@ -63,8 +63,8 @@ class Metal(SceneTest):
 
     def test_damage_without_erosion_leaves_the_energy(self):
         path = self.path((0, "1 0 0 0 1 0 0 0 1"), (4e-3, "1.1 0 0 0 1 0 0 0 1"), (5e-3, "1.2 0 0 0 1 0 0 0 1"))
-        text = SCENE.format(end=4e-3, step=2e-5, save='<save label="p.damage"/><save label="p.localizedMPM"/>', path=path,
-                            strength=3e8, deviator="", damage=DAMAGE)
+        text = SCENE.format(end=4e-3, step=2e-5, save='<save label="p.damage"/><save label="p.localizedMPM"/>',
+                            path=path, strength=3e8, deviator="", damage=DAMAGE)
         scene = self.scene(text)
         state = last_state(scene, "p.damage", "p.localizedMPM")
         self.assertGreater(float(state["p.damage [1]"][0]), 1)
