@@ -34,7 +34,10 @@ inline constexpr double roundOffOfShares = 1e-12;
 
 /// The volume that follows walls, per cell volume, below which it is round-off: it would bring a trace of gas to one of
 /// two mirrored cells, and none to the other.
-inline constexpr double roundOffOfSweeps = 1e-15;
+inline constexpr double roundOffOfSweeps = 1e-12;
+
+/// The volume, per cell volume, of gases in a full cell, in which they keep their fractions.
+inline constexpr double hardlyRoom = 1e-200;
 
 /// Computes the exchange of the gas with walls in a step.
 template <int D>

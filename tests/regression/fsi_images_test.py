@@ -141,6 +141,26 @@ class Images(SceneTest):
 
         self.assert_alike(MIRRORED, ball, "Time/max_Timesteps=1")
 
+    def test_of_burning_bodies_far_from_the_origin_differ_by_round_off(self):
+        """There, the edges of boxes are less exact. What follows walls because of that must not bring a trace of gas to
+        a cell without gas. Until 29 November 2026, the pressure in such a cell was 0 or .98."""
+        def discs(of):
+            velocity = (-.23323253899680219, -.09233613703904286, 0)
+            bodies = [of.body(of.disc((-1.5595738575971048, -.7818237626889328), .1805367530726874), 2, velocity,
+                              (2, 4, 1)),
+                      of.body(of.disc((-1.7416996613520277, -.3114604470293729), .1468838389088222), 2, velocity,
+                              (4, 4, 1))]
+            gas = of.gas((.12109185394877486, -.211075325551431, 0),
+                         ((-99, -99, -99), (-1.5419062355630955, -.6631210474768099, 99)))
+            model = """<Models><Model type="Simple_Burn"><Simple_Burn><fromMaterial>body0</fromMaterial>
+              <toMaterial>gas</toMaterial><ThresholdTemp>.1</ThresholdTemp><ThresholdPressure>.05</ThresholdPressure>
+              <Enthalpy>2</Enthalpy><BurnCoeff>.2</BurnCoeff><refPressure>1</refPressure></Simple_Burn></Model></Models>
+              </Uintah_specification>"""
+            return of.scene(((-2, -1, .5), (-1, 0, .5625), (12, 13, 1)), bodies, gas, periodic=(1, 0, 0),
+                            changes=[("</Uintah_specification>", model)])
+
+        self.assert_alike(UPSIDE_DOWN, discs, "Time/max_Timesteps=1")
+
 
 if __name__ == "__main__":
     unittest.main()
