@@ -31,10 +31,9 @@ struct Given {
 
 /// The smallest fraction of its gas that a donor keeps, so that round-off makes no amount negative.
 inline constexpr double roundOffOfShares = 1e-12;
-
-/// The volume that follows walls, per cell volume, below which it is round-off: it would bring a trace of gas to one of
-/// two mirrored cells, and none to the other.
-inline constexpr double roundOffOfSweeps = 1e-12;
+/// The volume that follows walls, per cell volume, below which it is round-off. Below the second number, none follows
+/// into a cell without gas: it would bring a trace of gas to one of two mirrored cells, and none to the other.
+inline constexpr double roundOffOfSweeps = 1e-15, roundOffOfEdges = 1e-12;
 /// The volume, per cell volume, of gases in a full cell, in which they keep their fractions.
 inline constexpr double hardlyRoom = 1e-200;
 
@@ -188,7 +187,8 @@ class WallExchange {
     const double shift =
         by == c::notSwept ? nodes_.speedsAt(above, axis).after * dt_ * level_.inverseSpacing(axis) : by;
     const double up = covered * shift - step_.swept[above][axis];
-    return std::abs(up) > roundOffOfSweeps ? up : 0;
+    const bool isIntoEmpty = space_.isEmpty(up > 0 ? above : above - Index<D>::unit(axis));
+    return std::abs(up) > (isIntoEmpty ? roundOffOfEdges : roundOffOfSweeps) ? up : 0;
   }
 
   /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and
