@@ -159,14 +159,14 @@ struct RoomAndMass {
     });
     return any ? rows.intersect(box) : Box{};
   }
-  /// Marks the cells with a free volume below 1, or without gas.
+  /// Marks the cells with a free volume below `whole`, or without gas.
   template <int D>
-  void markBodies(CellMarks<D>& marks, const Box& rows) const {
+  void markBodies(CellMarks<D>& marks, const Box& rows, double whole) const {
     forEachRow<D>(rows.intersect(free.box()), [&](const Index<D>& first, int count) {
       std::uint8_t* row = marks.row(first);
       const double* room = &free[first];
 #pragma GCC ivdep
-      for (int i = 0; i < count; ++i) row[i] = static_cast<std::uint8_t>(room[i] < 1);
+      for (int i = 0; i < count; ++i) row[i] = static_cast<std::uint8_t>(room[i] < whole);
     });
     forEachRow<D>(rows.intersect(free.box()).intersect(mass.box()), [&](const Index<D>& first, int count) {
       std::uint8_t* row = marks.row(first);
@@ -209,14 +209,16 @@ struct RoomAndMass {
 template <int D>
 class NearBodies {
  public:
-  /// Marks the cells of a box that are within `layers` layers of a cell with a free volume below 1, or without gas.
-  /// Both views may end at the sides of the grid.
-  NearBodies(const Box& box, int layers, const CellView<const double>& free, const CellView<const double>& mass)
+  /// Marks the cells of a box that are within `layers` layers of a cell with a free volume below `whole`, or without
+  /// gas. Both views may end at the sides of the grid. `whole` is 1 if the results for other cells are to have the same
+  /// bits; it is wholeFreeVolume if results near bodies differ by more than round-off.
+  NearBodies(const Box& box, int layers, const CellView<const double>& free, const CellView<const double>& mass,
+             double whole = 1)
       : near_(box.grown(layers, D)), acting_(near_.box()) {
     const RoomAndMass cells{free, mass};
     rows_ = cells.rowsWithBodies<D>(near_.box(), layers, true);
     if (rows_.empty()) return;
-    cells.markBodies(near_, rows_);
+    cells.markBodies(near_, rows_, whole);
     const Box bodies = near_.withMarks(rows_);
     rows_.lower[0] = std::max(rows_.lower[0], bodies.lower[0] - layers);
     rows_.upper[0] = std::min(rows_.upper[0], bodies.upper[0] + layers);

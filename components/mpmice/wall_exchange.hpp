@@ -31,10 +31,11 @@ struct Given {
 
 /// The smallest fraction of its gas that a donor keeps, so that round-off makes no amount negative.
 inline constexpr double roundOffOfShares = 1e-12;
-
-/// The volume that follows walls, per cell volume, below which it is round-off: it would bring a trace of gas to one of
-/// two mirrored cells, and none to the other.
-inline constexpr double roundOffOfSweeps = 1e-15;
+/// The volume that follows walls, per cell volume, below which it is round-off. Below the second number, none follows
+/// into a cell without gas: it would bring a trace of gas to one of two mirrored cells, and none to the other.
+inline constexpr double roundOffOfSweeps = 1e-15, roundOffOfEdges = 1e-12;
+/// The volume, per cell volume, of gases in a full cell, in which they keep their fractions.
+inline constexpr double hardlyRoom = 1e-200;
 
 /// Computes the exchange of the gas with walls in a step.
 template <int D>
@@ -75,11 +76,16 @@ class WallExchange {
     return isUpperSide ? space_.aperture(cell - Index<D>::unit(axis), axis, 1) : space_.aperture(cell, axis, 0);
   }
 
-  /// Converts the volume fractions of several gases into volumes, which together fill the free volume of the cell after
-  /// the step.
+  /// Converts the volume fractions of several gases into volumes, which fill the free volume after the step. In full
+  /// cells, and in holes without flow, they remain in proportion: no gas gets what is the round-off of others.
   void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
-    for (std::size_t k = 0; k < held.shares.size(); ++k)
-      held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
+    const double room = step_.newFree[cell];
+    for (std::size_t k = 0; k < held.shares.size(); ++k) {
+      const double share = cells_.held.shares[k][cell];
+      double& volume = held.shares[k][cell];
+      volume = room < narrowFreeVolume ? share * room + (volume - share) : volume + share * (room - 1);
+      if (room < leastFreeVolume) volume = share * std::max(room, hardlyRoom);
+    }
   }
 
   /// Expands the volumes of several gases that flowed into a cell without gas, so that they fill it.
@@ -181,7 +187,8 @@ class WallExchange {
     const double shift =
         by == c::notSwept ? nodes_.speedsAt(above, axis).after * dt_ * level_.inverseSpacing(axis) : by;
     const double up = covered * shift - step_.swept[above][axis];
-    return std::abs(up) > roundOffOfSweeps ? up : 0;
+    const bool isIntoEmpty = space_.isEmpty(up > 0 ? above : above - Index<D>::unit(axis));
+    return std::abs(up) > (isIntoEmpty ? roundOffOfEdges : roundOffOfSweeps) ? up : 0;
   }
 
   /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and
@@ -205,10 +212,11 @@ class WallExchange {
     held.density[cell] += volume * gas->of.u[euler::kDensity];
     for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas->of.u[euler::kVelocity(d)];
     held.totalEnergy[cell] += volume * gas->of.u[euler::kPressure<D>];
-    const bool isVacuum = space_.isVacuum(cell);
+    const bool isVacuum = space_.isVacuum(cell), isClosed = step_.newFree[cell] < leastFreeVolume;
     for (std::size_t k = 0; k < held.shares.size(); ++k) {
       held.masses[k][cell] += volume * gas->of.masses[k];
-      held.shares[k][cell] += volume * (gas->of.shares[k] - (isVacuum ? 0 : cells_.held.shares[k][cell]));
+      if (!isClosed)
+        held.shares[k][cell] += volume * (gas->of.shares[k] - (isVacuum ? 0 : cells_.held.shares[k][cell]));
     }
   }
 

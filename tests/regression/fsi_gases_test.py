@@ -158,6 +158,47 @@ class Traces(SceneTest):
             self.assertLess(difference, 1e-13 * max(without))
 
 
+class AbsentGas(SceneTest):
+    """A soft disc moves in air that a shock compresses; beyond it, there is water."""
+    BETWEEN = '<geom_object><box><min>[{},-9,-9]</min><max>[{},9,9]</max></box><density>{}</density><temperature>{}' \
+              '</temperature><velocity>[30,15,0]</velocity></geom_object>'
+    WATER = """<material name="water"><EOS type="stiffened_gas"><p_infinity>6e8</p_infinity></EOS><gamma>4.4</gamma>
+      <specific_heat>706</specific_heat><dynamic_viscosity>0</dynamic_viscosity>
+      <thermal_conductivity>0</thermal_conductivity>""" + BETWEEN.format(.75, 9, 1000, 250) + "</material>"
+
+    def scene_with(self, density, modulus):
+        text = fsi.scene("rest").read_text()
+        last = text.index("</geom_object>", text.index('<box label="all">')) + len("</geom_object>")
+        first = text.rindex("<geom_object>", 0, last)
+        air = self.BETWEEN.format(-9, .75, 1.2, 290.36) + self.BETWEEN.format(-9, .2, 6, 464.576)
+        saved = "".join(f'<save label="c.{name}OfGas{k}"/>' for name in ("mass", "share") for k in (0, 1))
+        return self.scene(changed(
+            text[:first] + air + text[last:], ("</ICE>\n    <exchange", self.WATER + "</ICE>\n    <exchange"),
+            ("<outputInitTimestep/>", saved),
+            ("[50,50,1]", "[48,48,1]"), ("[1,1,0.02]", "[1,1,0.02083333333333333]"), ("[4,4,1]", "[3,3,1]"),
+            ("[0.5,0.5,-1]", "[0.45,0.47,-1]"), ("[0.5,0.5,1]", "[0.45,0.47,1]"), ("<radius>0.2<", "<radius>0.15<"),
+            ("<density>1000</density>\n        <con", f"<density>{density}</density>\n        <con"),
+            ("<bulk_modulus>10000.0<", f"<bulk_modulus>{modulus}<"),
+            ("<shear_modulus>1000.0<", f"<shear_modulus>{modulus / 2}<"),
+            ("</res>", "</res><velocity>[30,15,0]</velocity>"), ("_pressure>1<", "_pressure>0<"),
+            ("<specific_heat>2.5<", "<specific_heat>717.5<"), ("[1e15]", "[1e15,1e15,1e15]"),
+            ("<heat>[0]", "<heat>[0,0,0]")))
+
+    def test_gets_no_volume_in_holes_that_close_and_open_again(self):
+        """Where bodies close a cell, volumes are round-off. Until 29 November 2026, a cell beside the disc got .002 of
+        water, with 2e-65 kg/m^3 of it, and -1.8e5 Pa after 1 ms; a softer disc ended the run."""
+        for density, modulus in ((50, 1e7), (20, 2e6)):
+            found = last_state(self.scene_with(density, modulus), "c.density", "c.pressure", "c.freeVolume",
+                               "c.massOfGas1", "c.shareOfGas1", sets=("Time/maxTime=1.4e-3",))
+            numbers = list(zip(*list(found.values())[2:]))
+            cells = [cell for cell in numbers if cell[0] > 0 and cell[2] > 1e-9]
+            self.assertGreater(len(cells), 2000)
+            dry = [cell for cell in cells if cell[3] < 1e-12 * cell[0]]
+            self.assertGreater(len(dry), 1000)
+            self.assertLess(max(share for *_, share in dry), 1e-12)
+            self.assertGreater(min(pressure for _, pressure, *_ in dry), 0)
+
+
 class RegionsWithoutGas(RefusedSceneTest):
     def test_are_refused_away_from_bodies(self):
         plug = fsi.scene("plug").read_text()

@@ -93,7 +93,7 @@ struct NewBurnModes {
 
 /// Determines in which mode each cell of an explosive burns, given the state at the start of the step, as Uintah's DDT1
 /// does. The pressure of a cell is the mean pressure of gas and explosive, weighted by volume. The pressure of the
-/// product gas is that of the surrounding cell with the largest free volume.
+/// product gas is the mean of the surrounding cells with the largest free volume.
 template <int D>
 class BurnModes {
  public:

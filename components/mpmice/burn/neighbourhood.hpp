@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpmice/burn/burning_surface.hpp"
+#include "components/mpmice/surroundings.hpp"
 
 namespace tushar::mpmice {
 
@@ -38,7 +39,7 @@ class Neighbourhood {
     forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), visit);
   }
   struct Around {
-    double product = 0;  ///< pressure of the gas in the surrounding cell with the largest free volume [Pa]
+    double product = 0;  ///< mean pressure of the gas in those surrounding cells with the largest free volume [Pa]
     bool isHot = false;
   };
   Around look(const Index<D>& cell) const {
@@ -46,10 +47,15 @@ class Neighbourhood {
     double most = 0;
     forEachAround(cell, [&](const Index<D>& at) {
       found.isHot = found.isHot || isHot(at);
-      if (cells_.isEmpty(at) || cells_.free[at] <= most) return;
-      most = cells_.free[at];
-      found.product = gasPressure(at);
+      most = std::max(most, freeVolume(at));
     });
+    if (most == 0) return found;
+    typename Surroundings<D>::Set widest = Surroundings<D>::none;
+    forEachAround(cell, [&](const Index<D>& at) {
+      if (freeVolume(at) > most - offRoundShares) widest |= Surroundings<D>::bitOf(cell, at);
+    });
+    found.product =
+        Surroundings<D>::sum(widest, cell, [&](const Index<D>& at) { return gasPressure(at); }) / std::popcount(widest);
     return found;
   }
   /// Whether the surface of the body passes through a face of the cell: there, the areas of the cells on both sides

@@ -95,7 +95,7 @@ class DiffusionBeside {
     const double filled = 1 - cells_.free[cell], walls = std::max(faces.wall(0) + faces.wall(1), filled);
     double middle = walls > 0 ? 0.5 * filled * (faces.wall(0) - faces.wall(1)) / walls : 0;
     for (const int side : {0, 1}) {
-      if (space_.isAtSide(cell, axis, side) || !(faces.open[side] > 0)) continue;
+      if (space_.isAtSide(cell, axis, side) || !(faces.open[side] > offRoundShares)) continue;
       const double next = cells_.free[side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis)];
       if (next < smallFreeVolume && next < cells_.free[cell] - offRoundShares)
         middle += (side == 0 ? -0.5 : 0.5) * next;

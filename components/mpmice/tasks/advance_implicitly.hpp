@@ -25,10 +25,11 @@ struct GasInStep {
 };
 
 /// Adds the fluxes of an implicit step along an axis through the open fractions of a block's faces, and gravity along
-/// this axis. Returns the largest fraction of a cell that flows through a face.
+/// this axis in cells that are not `beside` bodies. Returns the largest fraction of a cell that flows through a face.
 template <int D, int Axis>
-double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level, const Box& block,
-                       double dt, const GasInCells<D>& cells, ice::ImplicitStep<D>& step, const UnsharedGas<D>& fresh,
+double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& near, const NearBodies<D>& beside,
+                       const Level& level, const Box& block, double dt, const GasInCells<D>& cells,
+                       ice::ImplicitStep<D>& step, const UnsharedGas<D>& fresh,
                        const std::optional<CellView<Vec<D>>>& flow) {
   Box faces = block;
   ++faces.upper[Axis];
@@ -38,7 +39,7 @@ double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& nea
   euler::addFluxes<D, Axis>(ratio, block, cells.held, step.flux(), fresh.held);
   fresh.rims.masses.keep(block, Axis, step.flux());
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, step.flux(), *flow);
-  step.addGravity(block, Axis, fresh.held, [&](const Index<D>& cell) { return !near(cell); });
+  step.addGravity(block, Axis, fresh.held, [&](const Index<D>& cell) { return !beside(cell); });
   return most;
 }
 
@@ -54,6 +55,8 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
   const Level& level = patch.level();
   const GasInCells<D>& cells = before.cells;
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
+  // Gravity acts by another formula there, so round-off must not decide which cells these are.
+  const NearBodies<D> beside(patch.cells(), nearLayers, cells.free, cells.held.density, wholeFreeVolume);
   const WallExchange<D> exchange(level, settings, cells, bodies, records, time, dt);
   const Vec<D> gravity = level.reduce<D>(settings.gravity);
   offered.clear();
@@ -63,13 +66,13 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     step.hold(block, before.alone.state, before.change);
     const auto sweep = [&]<int Axis>() {
-      most = std::max(most,
-                      sweepImplicitly<D, Axis>(exchange, near, level, block, dt, cells, step, fresh, offered.massFlow));
+      most = std::max(most, sweepImplicitly<D, Axis>(exchange, near, beside, level, block, dt, cells, step, fresh,
+                                                     offered.massFlow));
     };
     sweep.template operator()<0>();
     if constexpr (D > 1) sweep.template operator()<1>();
     if constexpr (D > 2) sweep.template operator()<2>();
-    near.forEachIn(block, [&](const Index<D>& cell) {
+    beside.forEachIn(block, [&](const Index<D>& cell) {
       if (!gravity.isZero(0) && !cells.isEmpty(cell))
         euler::fall<D>(gravity, cells.held.density[cell], dt, fresh.held.momentum[cell], fresh.held.totalEnergy[cell]);
     });

@@ -30,6 +30,9 @@ struct NewGas {
   }
 };
 
+/// The density of a mixture over that of one of its gases above which the volume of this gas is round-off.
+inline constexpr double greatestRarity = 1e8;
+
 /// The sum of the contents of several cells, and of their free volumes.
 template <int D>
 struct Pool {
@@ -72,12 +75,22 @@ struct Pool {
     }
     return *this;
   }
-  /// Sets the volume fractions of several gases; in cells without gas, that of the first gas is 1.
+  /// Sets the volume fractions of several gases; in cells without gas, that of the first gas is 1. No fraction outlives
+  /// its mass: where bodies close a cell, volumes are round-off, of which a gas that is not there must get no part.
   void setShares(const Index<D>& cell, const euler::MixtureViews<D, double>& fresh) const {
+    if (gases == 0) return;
     double sum = 0;
     for (std::size_t k = 0; k < gases; ++k) sum += std::max(0.0, volumes[k]);
-    for (std::size_t k = 0; k < fresh.shares.size(); ++k)
-      fresh.shares[k][cell] = sum > 0 ? std::max(0.0, volumes[k]) / sum : k == 0 ? 1.0 : 0.0;
+    double rest = sum > 0 ? 0 : 1;  // what no gas has
+    std::size_t heaviest = 0;
+    for (std::size_t k = 0; k < gases; ++k) {
+      const double share = sum > 0 ? std::max(0.0, volumes[k]) / sum : 0;
+      const double most = mass > 0 ? greatestRarity * std::max(0.0, masses[k]) / mass : 1;
+      fresh.shares[k][cell] = std::min(share, most);
+      if (share > most) rest += share - most;
+      if (masses[k] > masses[heaviest]) heaviest = k;
+    }
+    if (rest > 0) fresh.shares[heaviest][cell] += rest;
   }
 };
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "components/mpmice/free_space.hpp"
 #include "components/mpmice/near_bodies.hpp"
+#include "components/mpmice/surroundings.hpp"
 
 namespace tushar::mpmice {
 
@@ -87,7 +86,7 @@ class SmallCells {
   template <class Visit>
   void forEachTarget(const Index<D>& cell, Visit&& visit) const {
     const Targets targets = targetsOf(cell);
-    forEachOf(targets.cells, cell, [&](const Index<D>& at) { visit(at, targets.partOf(at, cell)); });
+    Around::forEachOf(targets.cells, cell, [&](const Index<D>& at) { visit(at, targets.partOf(at, cell)); });
   }
   /// The content of a cell after merging, and whether it shares with others. `contentOf(cell, part)` is a part of the
   /// content of a cell before; contents are Pool or alike: they have a volume, and can be added and scaled.
@@ -95,11 +94,11 @@ class SmallCells {
   auto merged(const Index<D>& cell, ContentOf&& contentOf) const {
     const Targets targets = targetsOf(cell);
     bool shares = false;
-    auto content = sumAround(targets.cells, cell, [&](const Index<D>& target) {
+    auto content = Around::sum(targets.cells, cell, [&](const Index<D>& target) {
       if (target == cell && targets.keeps) return contentOf(cell, targets.kept);
-      const Choice members = givers(target) | bitOf(target, target);
+      const Choice members = givers(target) | Around::bitOf(target, target);
       shares |= !(target == cell) || std::popcount(members) > 1;
-      auto pool = sumAround(members, target, [&](const Index<D>& at) {
+      auto pool = Around::sum(members, target, [&](const Index<D>& at) {
         return contentOf(at, at == target ? 1.0 : partOfEach(choiceOf(at)));
       });
       if (pool.volume > 0) pool *= targets.part * state_.free[cell] / pool.volume;
@@ -109,9 +108,9 @@ class SmallCells {
   }
 
  private:
-  /// A set of cells around a cell: bit sum_d 3^d (offset_d + 1) for each.
-  using Choice = std::uint32_t;
-  static constexpr Choice none = 0;
+  using Around = Surroundings<D>;
+  using Choice = typename Around::Set;
+  static constexpr Choice none = Around::none;
 
   /// The cells with which a cell shares its content.
   struct Targets {
@@ -124,16 +123,16 @@ class SmallCells {
   };
   Targets targetsOf(const Index<D>& cell) const {
     const Choice choice = choiceOf(cell);
-    if (choice == none) return {bitOf(cell, cell), 1, 1, false};
+    if (choice == none) return {Around::bitOf(cell, cell), 1, 1, false};
     Targets targets{none, partOfEach(choice), 0, false};
-    forEachOf(choice, cell, [&](const Index<D>& at) {
+    Around::forEachOf(choice, cell, [&](const Index<D>& at) {
       if (isTarget(at))
-        targets.cells |= bitOf(cell, at);
+        targets.cells |= Around::bitOf(cell, at);
       else
         targets.kept += targets.part;
     });
     targets.keeps = targets.kept > 0;
-    if (targets.keeps) targets.cells |= bitOf(cell, cell);
+    if (targets.keeps) targets.cells |= Around::bitOf(cell, cell);
     return targets;
   }
   /// The small cells that give their gas to a cell.
@@ -141,55 +140,13 @@ class SmallCells {
     Choice giving = none;
     if (isTarget(centre))
       forEachAround(centre, [&](const Index<D>& at) {
-        if (const Choice choice = choiceOf(at); choice != none && (choice & bitOf(at, centre)) != 0)
-          giving |= bitOf(centre, at);
+        if (const Choice choice = choiceOf(at); choice != none && (choice & Around::bitOf(at, centre)) != 0)
+          giving |= Around::bitOf(centre, at);
       });
     return giving;
   }
 
-  static Choice bitOf(const Index<D>& cell, const Index<D>& neighbour) {
-    int bit = 0;
-    for (int d = D - 1; d >= 0; --d) bit = 3 * bit + neighbour[d] - cell[d] + 1;
-    return Choice{1} << bit;
-  }
   static double partOfEach(Choice choice) { return choice == none ? 1.0 : 1.0 / std::popcount(choice); }
-  /// The place of a bit in a cell's surroundings.
-  static Index<D> cellOf(int bit, Index<D> cell) {
-    for (int d = 0; d < D; ++d, bit /= 3) cell[d] += bit % 3 - 1;
-    return cell;
-  }
-  template <class Visit>
-  static void forEachOf(Choice cells, const Index<D>& cell, Visit&& visit) {
-    for (; cells != none; cells &= cells - 1) visit(cellOf(std::countr_zero(cells), cell));
-  }
-  /// The bits of the cells at an offset of -1, 0 or 1 along an axis.
-  static constexpr Choice slice(int axis, int offset) {
-    Choice bits = none;
-    int stride = 1, count = 1;
-    for (int d = 0; d < axis; ++d) stride *= 3;
-    for (int d = 0; d < D; ++d) count *= 3;
-    for (int bit = 0; bit < count; ++bit)
-      if (bit / stride % 3 - 1 == offset) bits |= Choice{1} << bit;
-    return bits;
-  }
-  /// The sum of `valueOf(at)` over a set of cells around a cell that is not empty. Along each axis, the values on
-  /// opposite sides are added first, so that the sums of mirrored cells have the same bits.
-  template <class ValueOf>
-  static auto sumAround(Choice cells, const Index<D>& cell, ValueOf&& valueOf, int axis = D - 1)
-      -> decltype(valueOf(cell)) {
-    if (std::popcount(cells) == 1) return valueOf(cellOf(std::countr_zero(cells), cell));
-    std::optional<decltype(valueOf(cell))> sum;
-    for (const int offset : {-1, 1, 0}) {
-      const Choice here = cells & slice(axis, offset);
-      if (here == none) continue;
-      const auto value = sumAround(here, cell, valueOf, axis - 1);
-      if (sum)
-        *sum += value;
-      else
-        sum = value;
-    }
-    return *sum;
-  }
   Choice choiceOf(const Index<D>& cell) const {
     if (!isSmall(cell)) return none;
     return known_.contains(cell) ? choices_[offsetIn<D>(known_, cell)] : choiceOfSmall(cell);
@@ -206,10 +163,10 @@ class SmallCells {
     forEachAround(cell, [&](const Index<D>& at) {
       const double score = scoreOf(cell, at);
       if (score == unsuited || score < most - offRoundShares) return;
-      if (isFull || facesApart(cell, at) > 1 || openingTo(cell, at) > 0) all |= bitOf(cell, at);
+      if (isFull || facesApart(cell, at) > 1 || openingTo(cell, at) > 0) all |= Around::bitOf(cell, at);
       if (first == cell || comesFirst(at, first, cell)) first = at;
     });
-    return all != none ? all : bitOf(cell, first);
+    return all != none ? all : Around::bitOf(cell, first);
   }
   /// Whether a neighbour of a cell is preferred to another one that is equally suitable, if neither is open to the
   /// cell: the one that is apart from the cell along the first axis, otherwise along the next one. Of two neighbours on

@@ -30,15 +30,17 @@ class CellWalls {
   /// The velocities of the walls at the lower and upper faces along each axis [m/s]; undefined where there is none.
   using Velocities = std::array<std::array<Vec<D>, 2>, D>;
   /// Lets the gas slip less if walls do not form one oblique wall, because they belong to bodies that slide along each
-  /// other: half as much if their velocities differ by a quarter of the speed of sound.
+  /// other: half as much if the velocities of any two differ by a quarter of the speed of sound.
   void separate(const Velocities& walls, const euler::Gas& gas) {
-    const Vec<D>* first = nullptr;
+    std::array<const Vec<D>*, 2 * D> others;
+    std::size_t count = 0;
     double apart = 0;
     for (int d = 0; d < D; ++d)
       for (const int side : {0, 1}) {
         if (!hasWall(d, side)) continue;
-        if (first) apart = std::max(apart, (walls[d][side] - *first).squaredNorm());
-        if (!first) first = &walls[d][side];
+        const Vec<D>& own = walls[d][side];
+        for (std::size_t k = 0; k < count; ++k) apart = std::max(apart, (own - *others[k]).squaredNorm());
+        others[count++] = &own;
       }
     const double c2 = gas.soundSpeedSquared(w_[euler::kDensity], w_[euler::kPressure<D>]);
     slip_ *= c2 / (c2 + 16 * apart);
