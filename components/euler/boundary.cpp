@@ -179,19 +179,30 @@ GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, const Box
 
 }  // namespace
 
-std::optional<double> pressureAt(const Place& place, const Gas& gas) {
-  auto given = givenAt(place, gas, boundary::pressure);
-  if (!given && gas.material != 0) {
-    Gas first = gas;
-    first.material = 0;
-    given = givenAt(place, first, boundary::pressure);
+namespace {
+
+/// The centre of the first cell of the coarsest level [m].
+Vec3 firstCentre(const Level& level) {
+  const grid::Domain& domain = level.domain();
+  Vec3 centre = domain.lower;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int cells = domain.resolution[axis] > 1 ? domain.resolution[axis] >> level.number() : 1;
+    centre[axis] += 0.5 * (domain.upper[axis] - domain.lower[axis]) / cells;
   }
-  if (!given || gas.weight.isZero(0)) return given;
-  const grid::Domain& domain = place.level.domain();
-  Vec3 from = domain.lower;
-  for (int axis = 0; axis < 3; ++axis)
-    from[axis] += 0.5 * (domain.upper[axis] - domain.lower[axis]) / domain.resolution[axis];
-  return *given + gas.weight.dot(place.x - from);
+  return centre;
+}
+
+}  // namespace
+
+std::optional<double> pressureAt(const Place& place, const Gas& gas) {
+  for (const int material : {gas.material, 0}) {
+    const auto condition = place.level.boundary(place.axis, place.side, boundary::pressure, material, place.part);
+    if (!condition || !condition->isDirichlet()) continue;
+    const double given = condition->at(place.x, place.time);
+    if (gas.weight.isZero(0) || condition->formula) return given;
+    return given + gas.weight.dot(place.x - firstCentre(place.level));
+  }
+  return {};
 }
 
 template <int D>

@@ -84,8 +84,8 @@ std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel
   return condition && condition->isDirichlet() ? std::optional(condition->at(place.x, place.time)) : std::nullopt;
 }
 /// The pressure that a scene prescribes at a place, if any. All materials share it, because Uintah's scenes give it for
-/// material 0. If the gas has a weight, it is hydrostatic: the scene's value is that at the centre of the first cell,
-/// and at x it is higher by the weight times (x - centre).
+/// material 0. If the gas has a weight, it is hydrostatic: a value, but not a formula, is that at the centre of the
+/// first cell of the coarsest level, and at x the pressure is higher by the weight times (x - centre).
 std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
 /// Whether a place is a wall: it has the condition Symmetric, or only a Velocity that is tangential to the side.

@@ -177,14 +177,16 @@ void takeModels(ModelsSection& models, const Element& root, int solids, GasScene
                       "<SimulationComponent type=\"mpmice\"/>");
 }
 
-/// A corner of the Box of the first Level [m], by its tag.
-Vec3 cornerOf(const Element& root, const char* name) {
+/// The vector of a tag of the first Level, such as <spacing>, or of its Box; none if there is no such tag.
+std::optional<Vec3> ofLevel(const Element& root, const char* name) {
   const auto grid = root.child("Grid");
   const auto level = grid ? grid->child("Level") : std::nullopt;
   const auto box = level ? level->child("Box") : std::nullopt;
-  const auto tag = box ? box->child(name) : std::nullopt;
-  return tag ? input::parse<Vec3>(tag->text()).value.value_or(Vec3::Zero()) : Vec3::Zero();
+  auto tag = box ? box->child(name) : std::nullopt;
+  if (!tag && level) tag = level->child(name);
+  return tag ? input::parse<Vec3>(tag->text()).value : std::nullopt;
 }
+Vec3 cornerOf(const Element& root, const char* name) { return ofLevel(root, name).value_or(Vec3::Zero()); }
 
 /// Half the size of the Box of the first Level [m]: the centre of Uintah's <counterflow>.
 Vec3 middleOf(const Element& root) { return 0.5 * (cornerOf(root, "upper") - cornerOf(root, "lower")); }
@@ -201,13 +203,16 @@ void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& m
   };
 }
 
-/// The density of a gas in the corner of the grid at the start [kg/m³].
-double densityInCorner(const GasMaterial& gas, const Element& root) {
-  const Vec3 corner = cornerOf(root, "lower");
+/// The density of a gas in the first cell of the grid at the start [kg/m³].
+double densityInFirstCell(const GasMaterial& gas, const Element& root) {
+  const Vec3 lower = cornerOf(root, "lower");
+  Vec3 centre = lower + 0.5 * ofLevel(root, "spacing").value_or(Vec3::Zero());
+  if (const auto cells = ofLevel(root, "resolution"))
+    centre = lower + 0.5 * (cornerOf(root, "upper") - lower).cwiseQuotient(cells->cwiseMax(1));
   const GasBody* there = &gas.bodies.front();
   for (const GasBody& body : gas.bodies)
-    if (body.shape->contains(corner)) there = &body;
-  return there->density(corner);
+    if (body.shape->contains(centre)) there = &body;
+  return there->density(centre);
 }
 
 /// Lets the pressures that sides prescribe rise by the weight of the gas around the others.
@@ -222,7 +227,7 @@ void takeWeight(const IceSection& ice, const std::vector<GasMaterial>& materials
                         "needs a gas with <isSurroundingMatl> true, whose weight is to count");
     return;
   }
-  scene.gas.gas.weight = densityInCorner(*around, root) * scene.gravity;
+  scene.gas.gas.weight = densityInFirstCell(*around, root) * scene.gravity;
   for (euler::Settings& one : scene.mixture) one.gas.weight = scene.gas.gas.weight;
 }
 

@@ -47,15 +47,15 @@ void balance(Outcome& outcome, MatNullSpace free, Vec b) {
 /// Makes tolerances relative to `scale` as well as to |b|, but never below the rounding error. A residual that is the
 /// rounding error of `scale` ends the solve, and only one far beyond `scale` is divergent: beside a right-hand side of
 /// round-off, a solution of round-off may start from a guess that is not 0.
-void relateToScale(double scale, const LinearSettings& settings, Vec b, KSP krylov) {
-  PetscReal size = 0, divergence = 0;
+void relateToScale(double scale, Vec b, KSP krylov) {
+  PetscReal size = 0, tolerance = 0, divergence = 0;
+  PetscInt iterations = 0;
   if (scale <= 0) return;
   check(VecNorm(b, NORM_2, &size));
-  check(KSPGetTolerances(krylov, nullptr, nullptr, &divergence, nullptr));
-  double tolerance = settings.tolerance;
+  check(KSPGetTolerances(krylov, &tolerance, nullptr, &divergence, &iterations));
   if (size > scale) tolerance = std::max(tolerance * scale / size, std::min(tolerance, leastTolerance));
   if (size > 0) divergence *= std::max(1.0, scale / size);
-  check(KSPSetTolerances(krylov, tolerance, leastTolerance * scale, divergence, settings.maxIterations));
+  check(KSPSetTolerances(krylov, tolerance, leastTolerance * scale, divergence, iterations));
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, cons
   check(KSPSetInitialGuessNonzero(krylov, settings.solver == "preonly" ? PETSC_FALSE : PETSC_TRUE));
   check(KSPSetResidualHistory(krylov, nullptr, settings.maxIterations + 1, PETSC_TRUE));
   configure(krylov, settings, "cg");
-  relateToScale(problem.scale, settings, b, krylov);
+  relateToScale(problem.scale, b, krylov);
   outcome.setup = timed([&] { check(KSPSetUp(krylov)); });
   outcome.solve = timed([&] { check(KSPSolve(krylov, b, solution)); });
   if (free) check(MatNullSpaceRemove(free, solution));

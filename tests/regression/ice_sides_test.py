@@ -66,6 +66,26 @@ class Hydrostatic(SceneTest):
                 self.assertLess(max(abs(a - b) for a, b in zip(found, expected)), 1e-11)
                 self.assertGreater(abs(found[-1] - level[-1]), 1e-3)
 
+    def test_they_are_the_same_on_two_levels(self):
+        levels = ("<AMR><Regridder><adaptive>true</adaptive><max_levels>2</max_levels><min_patch_size>[[4,4,4]]"
+                  "</min_patch_size></Regridder><ICE><Refinement_Criteria_Thresholds><Variable name=\"c.pressure\" "
+                  "value=\".01\"/></Refinement_Criteria_Thresholds></ICE></AMR>")
+        ends = []
+        for pressure, tags in (("1", ""), ("1 - .1*(y - 1.03125)", NO)):
+            text = scene(side("x-", pressure) + side("x+", pressure), self.ONE, tags, cells="[16,16,1]")
+            text = text.replace("<DataArchiver>", levels + "<DataArchiver>")
+            ends.append(globals_of(self.scene(text), "TotalEnergy")["TotalEnergy"][-1][1])
+        self.assertAlmostEqual(ends[0], ends[1], delta=1e-11)
+
+    def test_the_weight_is_that_of_the_gas_in_the_first_cell(self):
+        """Its region does not contain the corner of the grid, and is not the first."""
+        thin = ("<geom_object><sphere><origin>[.5,1.5,.5]</origin><radius>.1</radius></sphere>"
+                "<velocity>[0,0,0]</velocity><density>.1</density><temperature>10</temperature></geom_object>")
+        gas = self.ONE.replace("<geom_object>", thin + "<geom_object>", 1).replace("[-9,-9,-9]", "[.001,1.001,0]")
+        found = self.energies("1", gas, "")
+        expected = self.energies("1 - .1*(y - 1.0625)", gas, NO)
+        self.assertLess(max(abs(a - b) for a, b in zip(found, expected)), 1e-11)
+
     def test_it_needs_a_gas_around(self):
         text = scene(side("x-", 1), GAS.format("", "", ""), NO.replace("false", "true"))
         done = run(self.scene(text))

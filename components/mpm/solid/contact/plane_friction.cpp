@@ -140,7 +140,8 @@ int foremost(const SeparatingPlanes<D>& planes, std::span<const std::size_t> bod
 /// for rounding errors.
 template <int D>
 bool overlaps(const Level& level, const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
-  return (*planes[m].prominence)[node] <= (*planes[first].prominence)[node] + touchTolerance * level.minSpacing();
+  const double own = (*planes[m].prominence)[node];
+  return own != noProminence && own <= (*planes[first].prominence)[node] + touchTolerance * level.minSpacing();
 }
 
 /// The friction coefficient mu at a node.

@@ -48,7 +48,8 @@ void checkTransmitters(const Problem& problem, const Element& root, Diagnostics&
     if (!problem.materials[m].transmitsForce) continue;
     for (const Contact& contact : problem.contacts) {
       const bool isItsMaster = contact.type == Contact::Type::specified && contact.master == static_cast<int>(m);
-      if (!isItsMaster && contact.concerns(static_cast<int>(m)))
+      const bool meetsOthers = contact.bodies(problem.materials.size()).size() > 1;
+      if (!isItsMaster && meetsOthers && contact.concerns(static_cast<int>(m)))
         diagnostics.error(tags[m].child("is_force_transmitting_material").value(),
                           "the body feels only contacts of type rigid or specified of which it is the master: leave it "
                           "out of the <materials> of the others");
