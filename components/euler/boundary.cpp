@@ -121,7 +121,8 @@ GhostRule<D> diffusionRule(const Place& place, const Gas& gas) {
 bool dependsOnPlace(const Level& level, const Gas& gas, int axis, int side) {
   const auto hasSome = [&](const std::vector<grid::BoundaryCondition>& conditions) {
     return std::any_of(conditions.begin(), conditions.end(), [&](const auto& one) {
-      return one.formula || (one.variable.name == boundary::pressure.name && !gas.weight.isZero(0));
+      return one.formula || (!gas.weight.isZero(0) && one.kind == grid::BoundaryKind::dirichlet &&
+                             one.variable.name == boundary::pressure.name);
     });
   };
   const auto& parts = level.parts(axis, side);
@@ -176,10 +177,6 @@ GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, const Box
     }
   return rules;
 }
-
-}  // namespace
-
-namespace {
 
 /// The centre of the first cell of the coarsest level [m].
 Vec3 firstCentre(const Level& level) {

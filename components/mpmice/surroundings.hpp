@@ -9,7 +9,7 @@
 
 namespace tushar::mpmice {
 
-/// Sets of cells out of a cell and those around it: bit sum_d 3^d (offset_d + 1) for each.
+/// Sets of cells, each of a cell and the cells around it: bit sum_d 3^d (offset_d + 1) stands for each of them.
 template <int D>
 struct Surroundings {
   using Set = std::uint32_t;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Materials that Uintah's tags is_rigid and is_force_transmitting_material make rigid."""
 import pathlib
+import re
 import sys
 import unittest
 
@@ -54,6 +55,10 @@ class ForceTransmitting(Scenes):
                        "Time/max_Timesteps=1")
             self.assertEqual(done.code, 3, done.err)
             self.assertIn("feels only contacts of type rigid or specified of which it is the master", done.err)
+        alone = HAMMER.replace("rigid</type><direction>[1,1,1]</direction>", "single_velocity</type>")
+        alone = re.sub("<materials>.*?</materials>", "<materials>[0]</materials>", alone)
+        done = run(self.scene(alone), "Time/max_Timesteps=1")
+        self.assertEqual(done.code, 0, done.err)
 
     def test_patches_threads_and_ranks_change_no_bit(self):
         scene = self.scene(PUSHED)

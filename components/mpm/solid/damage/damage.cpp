@@ -41,7 +41,7 @@ void JohnsonCookDamage::grow(const MaterialConstants& material, const DamageCond
     state.damage = bearable > 0 ? state.damage + conditions.plasticStrainRate * conditions.timeStep / bearable : 1.0;
   }
   if (state.damage < leastDamage) state.damage = 0;
-  if (state.damage >= 1) state.hasFailed = true;
+  if (state.damage >= 1 && conditions.erodes) state.hasFailed = true;
 }
 
 void HancockMackenzieDamage::grow(const MaterialConstants&, const DamageConditions& conditions, Matrix3& stress,

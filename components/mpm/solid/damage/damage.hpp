@@ -15,6 +15,7 @@ struct DamageConditions {
   double plasticStrainRate;    ///< plastic strain rate [1/s]
   double temperature;          ///< temperature [K]
   double timeStep;             ///< time step [s]
+  bool erodes = true;          ///< whether failed particles lose stress
 };
 
 /// Damage of one particle.
@@ -36,8 +37,8 @@ struct NoDamage {
 };
 
 /// Johnson-Cook damage, D = sum de_p / e_f, e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*), s* = mean stress /
-/// equivalent stress: Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31. A particle fails at D = 1. As in Uintah, |s*| is
-/// limited to 1.5, and the rate factor is (1 + e*)^D4 below 1/s.
+/// equivalent stress: Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31. A particle that erodes fails at D = 1. As in
+/// Uintah, |s*| is limited to 1.5, and the rate factor is (1 + e*)^D4 below 1/s.
 struct JohnsonCookDamage {
   static constexpr std::string_view name = "johnson_cook";
   double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0;

@@ -95,13 +95,11 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
   const MaterialConstants constants = material.constants();
   for (int p = 0; p < d.stress.owned(); ++p) {
     const double plasticStrainRate = rate < 0 ? 0.0 : (&(*d.state)[0])[p * stateSize + rate];
-    const DamageConditions conditions{d.deformation[p], d.volume[p], plasticStrainRate, d.temperature[p], dt};
+    const DamageConditions conditions{d.deformation[p], d.volume[p], plasticStrainRate,
+                                      d.temperature[p], dt,          material.erosion.acts()};
     DamageState now{d.oldDamage[p], d.oldThreshold[p], d.oldLocalized[p] != 0};
     const bool losesStability = !now.hasFailed && isUnstable(material, p, stateSize, dt, d);
     std::visit([&](const auto& model) { model.grow(constants, conditions, d.stress[p], now); }, material.damage);
-    // Johnson & Cook's damage makes particles fail only together with an erosion, as in Uintah: others keep their
-    // stress.
-    if (!material.erosion.acts() && std::holds_alternative<JohnsonCookDamage>(material.damage)) now.hasFailed = false;
     if (losesStability ||
         (material.erosion.acts() && material.model->isMolten(d.deformation[p], d.stress[p], d.temperature[p])))
       now.hasFailed = true;
