@@ -45,7 +45,7 @@ const Schema<StepSection>& stepSchema() {
 const Schema<HypreSection>& hypreSchema() {
   static const Schema<HypreSection> schema = [] {
     Schema<HypreSection> tags("Parameters", "The settings of the pressure solve, in hypre's terms.");
-    const std::string cg = "cg", multigrid = "hypre";
+    const std::string cg = "cg", multigrid = "multigrid";
     tags.foreignAttribute("variable", "implicitPressure")
         .choice("solver", &HypreSection::solver,
                 {{"cg", cg},
@@ -67,7 +67,7 @@ const Schema<HypreSection>& hypreSchema() {
                  {"smg", multigrid},
                  {"sparsemsg", multigrid},
                  {"amg", multigrid}},
-                multigrid, "BoomerAMG for any multigrid method of hypre, the diagonal, or none")
+                multigrid, "multigrid for any multigrid method of hypre, the diagonal, or none")
         .value("tolerance", &HypreSection::tolerance, 1e-10, "1",
                "largest residual, relative to the right-hand side; at least 1e-12", input::positive())
         .value("maxiterations", &HypreSection::maxIterations, 1000, "1",

@@ -6,8 +6,11 @@
 
 #include "core/base/error.hpp"
 #include "core/numerics/diffusion.hpp"
+#include "core/solvers/box_solve.hpp"
+#include "core/solvers/direct.hpp"
 #include "core/solvers/numbering.hpp"
 #include "core/solvers/report.hpp"
+#include "core/solvers/stopwatch.hpp"
 #include "core/solvers/unsymmetric.hpp"
 #include "core/tasks/access.hpp"
 
@@ -47,6 +50,9 @@ class CellSystem {
                          const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf,
                          double scale = 0) {
     const bool isRefined = grid_.levels() > 1;
+    if (!isRefined && unknowns_.ranks->isAlone() && solvers::suitsBox(settings) &&
+        !solvers::isDirect(unknowns_, settings))
+      if (auto outcome = solveOnBox(settings, guess, equationOf, scale)) return *std::move(outcome);
     if (isRefined) meetOthers(equationOf);
     std::vector<double> right(unknowns_.entries.size());
     solution_.resize(right.size());
@@ -80,6 +86,43 @@ class CellSystem {
   }
 
  private:
+  /// Solves without PETSc; returns nothing if that is not possible.
+  template <class EquationOf>
+  std::optional<solvers::Outcome> solveOnBox(const solvers::LinearSettings& settings,
+                                             const std::vector<data::CellView<const double>>& guess,
+                                             EquationOf&& equationOf, double scale) {
+    const grid::Level& level = grid_.level();
+    solvers::CellBox box;
+    for (int d = 0; d < D; ++d) {
+      box.cells[d] = level.cells().extent(d);
+      box.isPeriodic[d] = level.isPeriodic(d);
+    }
+    solvers::BoxSystem system(box);
+    system.scale = scale;
+    system.constantIsFree = unknowns_.constantIsFree;
+    const auto offsetOf = [&](const Index<D>& cell) {
+      return system.matrix.shape.offset(cell[0], D > 1 ? cell[D > 1 ? 1 : 0] : 0, D > 2 ? cell[D - 1] : 0);
+    };
+    solvers::BoxAssembly assembly(system.matrix);
+    const solvers::Stopwatch assembling;
+    forEachCell([&](std::size_t p, const Index<D>& cell) {
+      const CellEquation<D> equation = equationOf(p, cell);
+      const Balance<D>& left = equation.left;
+      const std::ptrdiff_t at = offsetOf(cell);
+      system.matrix.diagonal[at] = left.weights[0];
+      system.b[at] = equation.right;
+      system.x[at] = guess[p][cell];
+      for (std::size_t k = 1; k < left.count; ++k) assembly.link(at, offsetOf(left.cells[k]), -left.weights[k]);
+    });
+    if (!assembly.finish()) return {};
+    const double duration = assembling.seconds();
+    std::optional<solvers::Outcome> outcome = solvers::solve(system, settings);
+    if (!outcome) return {};
+    outcome->assembly = duration;
+    solution_.resize(unknowns_.entries.size());
+    forEachCell([&](std::size_t p, const Index<D>& cell) { solution_[rowOf(p, cell)] = system.x[offsetOf(cell)]; });
+    return outcome;
+  }
   template <class Visit>
   void forEachCell(Visit&& visit) const {
     for (std::size_t p = 0; p < patches_.size(); ++p)

@@ -1,6 +1,5 @@
 #include "core/solvers/direct.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -9,14 +8,11 @@
 
 #include "core/solvers/block_factors.hpp"
 #include "core/solvers/newton_rules.hpp"
+#include "core/solvers/stopwatch.hpp"
 
 namespace tushar::solvers {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 double product(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -81,13 +77,13 @@ class FactorizedMatrix {
   /// Assembles and factorizes the matrix, and adds the times to the outcome; returns false if it is singular.
   template <class Fill>
   bool update(Fill&& fill, Outcome& outcome) {
-    const auto start = Clock::now();
+    const Stopwatch assembly;
     matrix_.assemble(fill);
-    outcome.assembly += secondsSince(start);
-    const auto assembled = Clock::now();
+    outcome.assembly += assembly.seconds();
+    const Stopwatch setup;
     if (!factors_ || !factors_->suits(matrix_)) factors_.emplace(EarlierFactors::ofThread().of(matrix_));
     is_regular_ = factors_->factorize(matrix_) > least_;
-    outcome.setup += secondsSince(assembled);
+    outcome.setup += setup.seconds();
     return is_regular_;
   }
   bool isRegular() const { return is_regular_; }
@@ -117,13 +113,13 @@ class DirectNewton {
         changes_(settings) {}
 
   Outcome solve() {
-    const auto start = Clock::now();
+    const Stopwatch whole;
     const bool isDefined = problem_.residual(u_, r_);
     outcome_.residuals.push_back(isDefined ? std::sqrt(product(r_, r_)) : std::numeric_limits<double>::infinity());
     bool isSmall = false;
     while (!isOver(isSmall)) isSmall = advance();
     if (!outcome_.converged) outcome_.worst = worstOf(r_);
-    outcome_.solve = secondsSince(start) - outcome_.assembly - outcome_.setup;
+    outcome_.solve = whole.seconds() - outcome_.assembly - outcome_.setup;
     return std::move(outcome_);
   }
   bool isRegular() const { return matrix_.isRegular(); }
@@ -202,7 +198,8 @@ bool isDirect(const Unknowns& unknowns, const LinearSettings& settings) {
   if (!unknowns.ranks->isAlone() || unknowns.constantIsFree || unknowns.block > 3) return false;
   if (!settings.petsc.empty() || std::getenv("PETSC_OPTIONS")) return false;
   return settings.solver == "preonly" ||
-         (settings.solver == "automatic" && settings.preconditioner == "gamg" && isSmall(unknowns));
+         (settings.solver == "automatic" &&
+          (settings.preconditioner == "gamg" || settings.preconditioner == "multigrid") && isSmall(unknowns));
 }
 
 std::optional<Outcome> solveDirectly(const Unknowns& unknowns, const LinearProblem& problem,
@@ -214,10 +211,10 @@ std::optional<Outcome> solveDirectly(const Unknowns& unknowns, const LinearProbl
     outcome.reason = singular;
     return outcome;
   }
-  const auto start = Clock::now();
+  const Stopwatch whole;
   std::copy(problem.rightHandSide.begin(), problem.rightHandSide.end(), x.begin());
   matrix.solve(x);
-  outcome.solve = secondsSince(start);
+  outcome.solve = whole.seconds();
   outcome.krylovIterations = 1;
   outcome.converged = true;
   for (const double value : x) outcome.converged = outcome.converged && std::isfinite(value);

@@ -20,7 +20,8 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
               "levels, gmres and lu replace cg and cholesky")
       .ours()
       .choice("preconditioner", &LinearSettings::preconditioner,
-              {{"gamg", "gamg"},
+              {{"multigrid", "multigrid"},
+               {"gamg", "gamg"},
                {"hypre", "hypre"},
                {"jacobi", "jacobi"},
                {"ilu", "ilu"},
@@ -28,7 +29,8 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
                {"cholesky", "cholesky"},
                {"none", "none"}},
               defaults.preconditioner,
-              "gamg, hypre: algebraic multigrid of PETSc or hypre; the others are for small systems")
+              "multigrid: geometric for cells of one level on one rank, and otherwise hypre; gamg, hypre: algebraic "
+              "multigrid of PETSc or hypre; the others are for small systems")
       .ours()
       .value("tolerance", &LinearSettings::tolerance, defaults.tolerance, "1",
              "largest residual, relative to the right-hand side", input::positive(), input::atMost(0.1))

@@ -1,20 +1,19 @@
 #include <algorithm>
-#include <chrono>
 
 #include "core/solvers/petsc_objects.hpp"
+#include "core/solvers/stopwatch.hpp"
+#include "core/solvers/tolerances.hpp"
 
 namespace tushar::solvers {
 
 namespace {
 
-constexpr double leastTolerance = 1e-15;
-
 /// The duration of `work` [s].
 template <class Work>
 double timed(Work&& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return watch.seconds();
 }
 
 /// The row with the largest |b - A x|.
@@ -44,18 +43,17 @@ void balance(Outcome& outcome, MatNullSpace free, Vec b) {
   check(MatNullSpaceRemove(free, b));
 }
 
-/// Makes tolerances relative to `scale` as well as to |b|, but never below the rounding error. A residual that is the
-/// rounding error of `scale` ends the solve, and only one far beyond `scale` is divergent: beside a right-hand side of
-/// round-off, a solution of round-off may start from a guess that is not 0.
+/// Makes tolerances relative to `scale` as well as to |b| (see Tolerances). Only a residual far beyond `scale` is
+/// divergent: beside a right-hand side of round-off, a solution of round-off may start from a guess that is not 0.
 void relateToScale(double scale, Vec b, KSP krylov) {
   PetscReal size = 0, tolerance = 0, divergence = 0;
   PetscInt iterations = 0;
   if (scale <= 0) return;
   check(VecNorm(b, NORM_2, &size));
   check(KSPGetTolerances(krylov, &tolerance, nullptr, &divergence, &iterations));
-  if (size > scale) tolerance = std::max(tolerance * scale / size, std::min(tolerance, leastTolerance));
+  const Tolerances tolerances = Tolerances::of(tolerance, scale, size);
   if (size > 0) divergence *= std::max(1.0, scale / size);
-  check(KSPSetTolerances(krylov, tolerance, leastTolerance * scale, divergence, iterations));
+  check(KSPSetTolerances(krylov, tolerances.relative, tolerances.absolute, divergence, iterations));
 }
 
 }  // namespace

@@ -159,6 +159,7 @@ void GhostedVector::addUp(std::span<double> values) {
 
 void configure(KSP krylov, LinearSettings settings, const char* automatic) {
   if (settings.solver == "automatic") settings.solver = automatic;
+  if (settings.preconditioner == "multigrid") settings.preconditioner = "hypre";
   check(KSPSetType(krylov, settings.solver.c_str()));
   check(KSPSetTolerances(krylov, settings.tolerance, 0, 1e10, settings.maxIterations));
   check(KSPSetNormType(krylov, settings.solver == "preonly" ? KSP_NORM_NONE : KSP_NORM_UNPRECONDITIONED));

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""PETSc is loaded for scenes with a global solve, and only for these."""
+"""PETSc is loaded for scenes with a solve that is left to it, and only for these."""
 import os
 import pathlib
 import subprocess
@@ -27,8 +27,12 @@ class Loading(unittest.TestCase):
             self.assertIn("libc.so", found)
             self.assertFalse("libpetsc" in found, f"{scene} loads PETSc")
 
-    def test_a_scene_with_a_solve_does(self):
-        self.assertIn("libpetsc", libraries("ups/poisson/sine.ups"))
+    def test_a_scene_with_a_solve_on_levels_does(self):
+        self.assertIn("libpetsc", libraries("ups/poisson/levels.ups"))
+
+    def test_cells_of_one_level_on_one_rank_need_none_unless_there_are_options_for_it(self):
+        self.assertNotIn("libpetsc", libraries("ups/poisson/sine.ups"))
+        self.assertIn("libpetsc", libraries("ups/poisson/sine.ups", "-petsc", "-ksp_max_it 1000"))
 
     def test_a_small_solve_on_one_rank_loads_none_unless_there_are_options_for_it(self):
         self.assertNotIn("libpetsc", libraries("ups/solid/implicit_cantilever.ups"))

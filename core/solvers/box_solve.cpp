@@ -1,0 +1,174 @@
+#include "core/solvers/box_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "core/solvers/box_multigrid.hpp"
+#include "core/solvers/stopwatch.hpp"
+#include "core/solvers/tolerances.hpp"
+
+namespace tushar::solvers {
+
+namespace {
+
+using Values = std::vector<double>;
+
+/// The sum of term(offset) over all cells. It has the same bits for registers of any width.
+template <class Term>
+double sumOf(const BoxShape& shape, Term&& term) {
+  constexpr int parts = 8;
+  std::array<double, parts> sums{};
+  shape.forEachRow([&](std::ptrdiff_t first) {
+    const int cells = shape.extent(0), whole = cells / parts * parts;
+    for (int i = 0; i < whole; i += parts)
+      for (int k = 0; k < parts; ++k) sums[k] += term(first + i + k);
+    for (int i = whole; i < cells; ++i) sums[i - whole] += term(first + i);
+  });
+  double sum = 0;
+  for (const double part : sums) sum += part;
+  return sum;
+}
+
+double product(const BoxShape& shape, const Values& a, const Values& b) {
+  return sumOf(shape, [a = a.data(), b = b.data()](std::ptrdiff_t at) { return a[at] * b[at]; });
+}
+
+double norm(const BoxShape& shape, const Values& a) { return std::sqrt(product(shape, a, a)); }
+
+void takeOutMean(const BoxShape& shape, Values& values) {
+  const double mean = sumOf(shape, [&](std::ptrdiff_t at) { return values[at]; }) / static_cast<double>(shape.cells());
+  shape.forEachCell([&](std::ptrdiff_t at) { values[at] -= mean; });
+}
+
+/// The preconditioners.
+class Preconditioner {
+ public:
+  Preconditioner(const BoxSystem& system, const std::string& name)
+      : matrix_(system.matrix), constantIsFree_(system.constantIsFree), isDiagonal_(name == "jacobi") {
+    if (name == "multigrid") multigrid_.emplace(matrix_);
+  }
+  /// z = M r, where M is about the inverse of the matrix.
+  void apply(const Values& r, Values& z) {
+    if (multigrid_)
+      multigrid_->apply(r, z);
+    else if (isDiagonal_)
+      for (std::size_t k = 0; k < r.size(); ++k) z[k] = matrix_.diagonal[k] > 0 ? r[k] / matrix_.diagonal[k] : 0;
+    else
+      z = r;
+    if (constantIsFree_) takeOutMean(matrix_.shape, z);
+  }
+
+ private:
+  const BoxStencil<double>& matrix_;
+  bool constantIsFree_, isDiagonal_;
+  std::optional<BoxMultigrid> multigrid_;
+};
+
+/// Conjugate gradients. Source: J. R. Shewchuk, An Introduction to the Conjugate Gradient Method (1994), B3.
+class ConjugateGradients {
+ public:
+  ConjugateGradients(BoxSystem& system, Preconditioner& preconditioner, const LinearSettings& settings)
+      : system_(system), preconditioner_(preconditioner), settings_(settings), r_(system.b.size()) {}
+
+  /// Returns whether the matrix is positive definite.
+  bool solve(Outcome& outcome) {
+    const BoxShape& shape = system_.matrix.shape;
+    r_ = system_.b;
+    system_.matrix.subtract(system_.x, r_);
+    outcome.residuals.push_back(norm(shape, r_));
+    const double given = norm(shape, system_.b), size = given > 0 ? given : outcome.residuals.front();
+    const Tolerances tolerances = Tolerances::of(settings_.tolerance, system_.scale, size);
+    const double largest = std::max(tolerances.relative * size, tolerances.absolute);
+    while (outcome.residuals.back() > largest) {
+      if (outcome.krylovIterations == settings_.maxIterations) {
+        outcome.reason = "more iterations than allowed";
+        outcome.worst = worst();
+        return true;
+      }
+      if (!advance()) return false;
+      ++outcome.krylovIterations;
+      outcome.residuals.push_back(norm(shape, r_));
+    }
+    outcome.converged = std::isfinite(outcome.residuals.back());
+    outcome.reason = "solved";
+    return outcome.converged;
+  }
+
+ private:
+  bool advance() {
+    const BoxShape& shape = system_.matrix.shape;
+    if (p_.empty()) {
+      p_.resize(r_.size());
+      q_ = z_ = p_;
+    }
+    preconditioner_.apply(r_, z_);
+    const double before = slope_;
+    slope_ = product(shape, r_, z_);
+    const double kept = before > 0 ? slope_ / before : 0;
+    update(p_, kept, z_, 1);
+    system_.matrix.multiply(p_, q_);
+    const double curvature = product(shape, p_, q_);
+    if (!(curvature > 0) || !(slope_ > 0)) return false;
+    const double length = slope_ / curvature;
+    update(system_.x, 1, p_, length);
+    update(r_, 1, q_, -length);
+    return true;
+  }
+  /// a = kept a + factor b.
+  void update(Values& a, double kept, const Values& b, double factor) const {
+    const BoxShape& shape = system_.matrix.shape;
+    shape.forEachRow([&, to = a.data(), from = b.data()](std::ptrdiff_t first) {
+      for (std::ptrdiff_t at = first; at < first + shape.extent(0); ++at) to[at] = kept * to[at] + factor * from[at];
+    });
+  }
+  /// The number of the cell with the largest residual.
+  int worst() const {
+    int number = 0, found = 0;
+    double greatest = -1;
+    system_.matrix.shape.forEachCell([&](std::ptrdiff_t at) {
+      if (std::abs(r_[at]) > greatest) {
+        greatest = std::abs(r_[at]);
+        found = number;
+      }
+      ++number;
+    });
+    return found;
+  }
+
+  BoxSystem& system_;
+  Preconditioner& preconditioner_;
+  const LinearSettings& settings_;
+  Values r_, z_, p_, q_;
+  double slope_ = 0;
+};
+
+}  // namespace
+
+bool suitsBox(const LinearSettings& settings) {
+  if (!settings.petsc.empty() || std::getenv("PETSC_OPTIONS")) return false;
+  if (settings.solver != "cg" && settings.solver != "automatic") return false;
+  return settings.preconditioner == "multigrid" || settings.preconditioner == "jacobi" ||
+         settings.preconditioner == "none";
+}
+
+std::optional<Outcome> solve(BoxSystem& system, const LinearSettings& settings) {
+  const BoxShape& shape = system.matrix.shape;
+  Outcome outcome;
+  if (system.constantIsFree) {
+    outcome.unbalanced = sumOf(shape, [&](std::ptrdiff_t at) { return system.b[at]; });
+    outcome.loads = sumOf(shape, [&](std::ptrdiff_t at) { return std::abs(system.b[at]); });
+    takeOutMean(shape, system.b);
+  }
+  const Stopwatch setup;
+  Preconditioner preconditioner(system, settings.preconditioner);
+  outcome.setup = setup.seconds();
+  const Stopwatch iterations;
+  if (!ConjugateGradients(system, preconditioner, settings).solve(outcome)) return std::nullopt;
+  outcome.solve = iterations.seconds();
+  if (system.constantIsFree) takeOutMean(shape, system.x);
+  return outcome;
+}
+
+}  // namespace tushar::solvers
