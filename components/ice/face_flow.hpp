@@ -4,6 +4,8 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "components/euler/diffusion.hpp"
 #include "components/euler/mixture.hpp"
@@ -87,9 +89,10 @@ class GasBefore {
   const Level& level() const { return level_; }
   const LawsOf<K>& gas() const { return gas_; }
   /// The acceleration [m/s²] by gravity and the driving force where the density [kg/m³] is `density`, which may be 0
-  /// without a driving force.
-  double acceleration(int axis, double density) const {
-    return push_[axis] == 0 ? gravity_[axis] : gravity_[axis] + push_[axis] / density;
+  /// without a driving force. Numbers are double or Lanes.
+  template <class Number>
+  Number acceleration(int axis, const Number& density) const {
+    return push_[axis] == 0 ? Number(gravity_[axis]) : gravity_[axis] + push_[axis] / density;
   }
   const Vec<D>& gravity() const { return gravity_; }
   const Vec<D>& push() const { return push_; }
@@ -117,11 +120,12 @@ class GasBefore {
       if (cell[d] < sides_[d][0] || cell[d] >= sides_[d][1]) return false;
     return true;
   }
-  /// Whether a face lies on a side of the grid.
-  bool isOnSide(const Index<D>& face, int axis) const {
-    return face[axis] == sides_[axis][0] || face[axis] == sides_[axis][1];
-  }
+  /// Whether a face lies on a side of the grid; it is identified by an axis and by the cell above it, of which only the
+  /// place along the axis matters.
+  bool isOnSide(const Index<D>& face, int axis) const { return isSide(face[axis], axis); }
+  bool isSide(int place, int axis) const { return place == sides_[axis][0] || place == sides_[axis][1]; }
   bool isFlat(const Index<D>& cell) const { return is_flat_ && is_flat_(cell); }
+  bool hasFlatCells() const { return static_cast<bool>(is_flat_); }
   /// The limited differences of the state across a cell along an axis.
   euler::State<D, K> slopes(const Index<D>& cell, int axis) const {
     euler::State<D, K> slopes{};
@@ -158,11 +162,14 @@ class GasBefore {
   /// dt / (rho_f h) [m/(s Pa)]: the decrease of the normal velocity in a time dt [s], per Pa by which the pressure
   /// rises across the face; 0 where pressure does not act.
   double mobility(const Index<D>& face, int axis, double dt) const {
-    if (isFree(face, axis) || givenVelocity(face, axis)) return 0;
+    if (isOnSide(face, axis) && (isFree(face, axis) || givenVelocity(face, axis))) return 0;
     return dt * level_.inverseSpacing(axis) / density(face, axis);
   }
 
  protected:
+  /// The first and the last face along each axis; out of reach if periodic.
+  std::array<std::array<int, 2>, D> sides_;
+
   /// The relaxation at the side that contains a face.
   euler::Relaxation relaxationOf(const Index<D>& face, int axis) const {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
@@ -195,7 +202,6 @@ class GasBefore {
   const LawsOf<K>& gas_;
   Vec<D> gravity_, push_;
   IsFlat<D> is_flat_;
-  std::array<std::array<int, 2>, D> sides_;  ///< the first and the last face along each axis; out of reach if periodic
   euler::Rows<D, K> old_;
 };
 
@@ -227,35 +233,42 @@ class FaceFlow : public GasBefore<D, K> {
       : GasBefore<D, K>(level, gas, settings, rules, largest.grown(2, D).size(), std::move(isFlat)),
         dt_(dt),
         hasSlopes_(method.reconstruction != euler::Reconstruction::firstOrder),
-        ahead_(this->old()) {}
+        ahead_(this->old()) {
+    for (int d = 0; d < D; ++d) {
+      unchanged_[d].resize(ahead_.room());
+      loss_[d].resize(ahead_.room());
+    }
+  }
 
   /// Loads the faces of the cells in `box`; it needs the state in two more layers of cells.
   void hold(const Box& box, const euler::ViewsOf<D, K, const double>& before) {
     GasBefore<D, K>::hold(box.grown(2, D), before);
     ahead_ = this->old();
     if (hasSlopes_) carryVelocities(this->level().clipCells(box.grown(1, D)));
+    for (int d = 0; d < D; ++d) {
+      Box faces = box;
+      ++faces.upper[d];
+      findFaces(faces, d);
+      for (const int side : {0, 1})
+        if (this->sides_[d][side] >= faces.lower[d] && this->sides_[d][side] < faces.upper[d]) {
+          Box onSide = faces;
+          onSide.lower[d] = this->sides_[d][side];
+          onSide.upper[d] = onSide.lower[d] + 1;
+          forEach<D>(onSide, [&](const Index<D>& face) { findFaceOnSide(face, d); });
+        }
+    }
   }
   /// Whether cells have van Leer's slopes, rather than constant values.
   bool hasSlopes() const { return hasSlopes_; }
 
   /// u_f [m/s] for unchanged pressures.
-  double unchanged(const Index<D>& face, int axis) const {
-    if (this->isOnSide(face, axis)) {
-      if (const auto given = this->givenVelocity(face, axis)) return *given;
-      if (this->isFree(face, axis)) return throughOpenSide(openSide(face, axis));
-    }
-    const double* above = this->old().component(euler::kPressure<D>) + this->old().offsetOf(face);
-    const double rise = above[0] - above[-this->old().stride(axis)];
-    return this->mean(ahead_, face, axis, euler::kVelocity(axis)) +
-           dt_ * this->acceleration(axis, this->density(face, axis)) - this->mobility(face, axis, dt_) * rise;
-  }
+  double unchanged(const Index<D>& face, int axis) const { return unchanged_[axis][this->old().offsetOf(face)]; }
   /// The decrease of u_f per increase of the pressure in the cell above the face [m/(s Pa)]. It equals the increase of
   /// u_f per increase of the pressure in the cell below. The pressure beyond a side does not change.
-  double loss(const Index<D>& face, int axis) const {
-    if (!this->isOpen(face, axis)) return this->mobility(face, axis, dt_);
-    const OpenSide side = openSide(face, axis);
-    return side.lightness * side.push / (side.push + side.lightness);
-  }
+  double loss(const Index<D>& face, int axis) const { return loss_[axis][this->old().offsetOf(face)]; }
+  /// The same, by the face's place in the rows of old().
+  const double* unchangedAt(int axis, std::ptrdiff_t offset) const { return unchanged_[axis].data() + offset; }
+  const double* lossAt(int axis, std::ptrdiff_t offset) const { return loss_[axis].data() + offset; }
   /// p' [Pa] on an open side if the pressure of the adjacent cell changes by `change` [Pa].
   double openPressure(const Index<D>& face, int axis, double change) const {
     const OpenSide side = openSide(face, axis);
@@ -297,20 +310,75 @@ class FaceFlow : public GasBefore<D, K> {
   }
   /// Changes the velocities of cells to v - dt (v . grad) v.
   void carryVelocities(const Box& cells) {
-    forEach<D>(cells, [&](const Index<D>& cell) {
-      const euler::State<D, K> w = this->old().state(cell);
-      const auto ahead = ahead_.at(cell);
-      for (int d = 0; d < D; ++d) {
-        const euler::State<D, K> slopes = this->slopes(cell, d);
-        const double ratio = dt_ * this->level().inverseSpacing(d) * w[euler::kVelocity(d)];
-        for (int k = 0; k < D; ++k) *ahead[euler::kVelocity(k)] -= ratio * slopes[euler::kVelocity(k)];
+    if (this->hasFlatCells())
+      return forEach<D>(cells, [&](const Index<D>& cell) {
+        if (!this->isFlat(cell)) carryVelocity(cell, 1);
+      });
+    grid::forEachRow<D>(cells, [&](const Index<D>& row, int count) { carryVelocity(row, count); });
+  }
+  void carryVelocity(const Index<D>& row, int count) {
+    const std::ptrdiff_t first = this->old().offsetOf(row);
+    const auto ahead = ahead_.at(row);
+    euler::forEachRegister(count, [&](auto number, std::ptrdiff_t i) {
+      using Number = decltype(number);
+      const auto at = [&](int axis) { return this->old().component(euler::kVelocity(axis)) + first + i; };
+      std::array<Number, D> ratios;
+      for (int d = 0; d < D; ++d)
+        ratios[d] = dt_ * this->level().inverseSpacing(d) * euler::numberAt<Number>(at(d));
+      for (int k = 0; k < D; ++k) {
+        const double* v = at(k);
+        const auto middle = euler::numberAt<Number>(v);
+        auto carried = middle;
+        for (int d = 0; d < D; ++d) {
+          const std::ptrdiff_t step = this->old().stride(d);
+          const Number below = middle - euler::numberAt<Number>(v - step);
+          const Number above = euler::numberAt<Number>(v + step) - middle;
+          carried = carried - ratios[d] * (2.0 * VanLeer::half(below, above));
+        }
+        euler::put(carried, ahead[euler::kVelocity(k)] + i);
       }
     });
+  }
+  /// Computes the flow through faces as if none of them were on a side.
+  void findFaces(const Box& faces, int axis) {
+    const std::ptrdiff_t step = this->old().stride(axis);
+    const double perWidth = dt_ * this->level().inverseSpacing(axis);
+    grid::forEachRow<D>(faces, [&](const Index<D>& row, int count) {
+      const std::ptrdiff_t first = this->old().offsetOf(row);
+      euler::forEachRegister(count, [&](auto number, std::ptrdiff_t i) {
+        using Number = decltype(number);
+        const auto pair = [&](const euler::Rows<D, K>& of, std::size_t k) {
+          const double* above = of.component(k) + first + i;
+          return std::pair(euler::numberAt<Number>(above - step), euler::numberAt<Number>(above));
+        };
+        const auto mean = [](const auto& two) { return 0.5 * (two.first + two.second); };
+        const Number rho = mean(pair(this->old(), euler::kDensity)), loss = perWidth / rho;
+        const auto pressure = pair(this->old(), euler::kPressure<D>);
+        const Number ahead = mean(pair(ahead_, euler::kVelocity(axis)));
+        euler::put(ahead + dt_ * this->acceleration(axis, rho) - loss * (pressure.second - pressure.first),
+                   unchanged_[axis].data() + first + i);
+        euler::put(loss, loss_[axis].data() + first + i);
+      });
+    });
+  }
+  /// Corrects what findFaces has computed for a face on a side.
+  void findFaceOnSide(const Index<D>& face, int axis) {
+    const std::ptrdiff_t at = this->old().offsetOf(face);
+    double &unchanged = unchanged_[axis][at], &loss = loss_[axis][at];
+    if (const auto given = this->givenVelocity(face, axis)) {
+      unchanged = *given;
+      loss = 0;
+    } else if (this->isFree(face, axis)) {
+      const OpenSide side = openSide(face, axis);
+      unchanged = throughOpenSide(side);
+      loss = side.lightness * side.push / (side.push + side.lightness);
+    }
   }
 
   double dt_;
   bool hasSlopes_;
   euler::Rows<D, K> ahead_;
+  std::array<std::vector<double>, D> unchanged_, loss_;  ///< for the faces along each axis, at their places in old()
 };
 
 }  // namespace tushar::ice

@@ -28,7 +28,10 @@ void computeDiffusiveFluxes(const Diffusion& diffusion, const Level& level, cons
   const Spacing<D> spacing(level, w);
   forEachRow<D>(faces, [&](const Index<D>& first, int count) {
     const auto from = w.at(first), to = flux.at(first);
-    for (std::ptrdiff_t i = 0; i < count; ++i) store<D>(to, i, diffusiveFluxAt<D>(diffusion, from, spacing, axis, i));
+    forEachRegister(count, [&](auto number, std::ptrdiff_t i) {
+      using Number = decltype(number);
+      store<D, Number>(to, i, diffusiveFluxAt<D, Number>(diffusion, from, spacing, axis, i));
+    });
   });
 }
 

@@ -21,28 +21,34 @@ struct Spacing {
   }
 };
 
-/// Computes the fluxes along an axis through the lower face of the cell at position `i`.
-template <int D>
-State<D> diffusiveFluxAt(const Diffusion& diffusion, const typename Rows<D>::Pointers& w, const Spacing<D>& by,
+/// Computes the fluxes along an axis through the lower face of the cell at position `i` or, for Lanes, of the cells that
+/// begin there.
+template <int D, class Number = double>
+[[gnu::always_inline]] inline State<D, 1, Number> diffusiveFluxAt(const Diffusion& diffusion, const typename Rows<D>::Pointers& w, const Spacing<D>& by,
                          int axis, std::ptrdiff_t i) {
   const std::ptrdiff_t below = i - by.stride[axis];
-  State<D> flux{};
-  double others = 0;
+  const auto number = [](const double* of, std::ptrdiff_t at) { return numberAt<Number>(of + at); };
+  State<D, 1, Number> flux{};
+  Number others = 0;
   const double* normal = w[kVelocity(axis)];
-  const double along = (normal[i] - normal[below]) * by.inverse[axis];
+  const Number along = (number(normal, i) - number(normal, below)) * by.inverse[axis];
   for (int k = 0; k < D; ++k) {
     if (k == axis) continue;
     const double* v = w[kVelocity(k)];
     const std::ptrdiff_t next = by.stride[k];
     const auto slope = [&](const double* of) {
-      return 0.25 * by.inverse[k] * ((of[i + next] - of[i - next]) + (of[below + next] - of[below - next]));
+      return 0.25 * by.inverse[k] *
+             ((number(of, i + next) - number(of, i - next)) + (number(of, below + next) - number(of, below - next)));
     };
     others += slope(v);
-    flux[kVelocity(k)] = -diffusion.viscosity * ((v[i] - v[below]) * by.inverse[axis] + slope(normal));
+    flux[kVelocity(k)] =
+        -diffusion.viscosity * ((number(v, i) - number(v, below)) * by.inverse[axis] + slope(normal));
   }
   flux[kVelocity(axis)] = -diffusion.viscosity * (2 * along - 2.0 / 3 * (along + others));
-  double energy = -diffusion.conductivity * (w[kTemperature][i] - w[kTemperature][below]) * by.inverse[axis];
-  for (int k = 0; k < D; ++k) energy += flux[kVelocity(k)] * 0.5 * (w[kVelocity(k)][i] + w[kVelocity(k)][below]);
+  Number energy =
+      -diffusion.conductivity * (number(w[kTemperature], i) - number(w[kTemperature], below)) * by.inverse[axis];
+  for (int k = 0; k < D; ++k)
+    energy += flux[kVelocity(k)] * 0.5 * (number(w[kVelocity(k)], i) + number(w[kVelocity(k)], below));
   flux[kPressure<D>] = energy;
   return flux;
 }

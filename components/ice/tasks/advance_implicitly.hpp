@@ -30,8 +30,7 @@ class ImplicitStep {
     flow_.fillWithChange(change, after_);
     middle_ = flow_.old();
     flux_.hold(flow_.old().box());
-    if (flow_.hasSlopes())
-      forEach<D>(level_.clipCells(block.grown(1, D)), [&](const Index<D>& cell) { goHalfway(cell); });
+    if (flow_.hasSlopes()) goHalfway(level_.clipCells(block.grown(1, D)));
   }
 
   /// Computes the fluxes along an axis through the lower faces of the cells of `faces`. u_f transports the values of
@@ -39,7 +38,20 @@ class ImplicitStep {
   /// the viscosity of von Neumann and Richtmyer for a strong shock, (gamma + 1) / 2 rho (dv)². Returns the largest
   /// fraction of a cell that flows through a face.
   double computeFluxes(const Box& faces, int axis) {
-    return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
+    const auto all = [](const Index<D>&) { return 1.0; };
+    if (K > 1 || hasOwnLaw()) return computeFluxes(faces, axis, all);
+    Box between = faces;  // those between cells of the grid
+    double most = 0;
+    for (const int side : {0, 1}) {
+      Box onSide = faces;
+      onSide.lower[axis] = side == 0 ? faces.lower[axis] : faces.upper[axis] - 1;
+      onSide.upper[axis] = onSide.lower[axis] + 1;
+      if (!flow_.isSide(onSide.lower[axis], axis)) continue;
+      most = std::max(most, computeFluxes(onSide, axis, all));
+      (side == 0 ? between.lower : between.upper)[axis] += side == 0 ? 1 : -1;
+    }
+    if constexpr (K == 1) most = std::max(most, computeFluxesBetween(between, axis));
+    return most;
   }
   /// Computes fluxes like the function above, with flow only through the open fraction `open(face)` of each face.
   template <class Open>
@@ -90,6 +102,70 @@ class ImplicitStep {
   }
 
  private:
+  bool hasOwnLaw() const {
+    if constexpr (K == 1)
+      return flow_.gas().law != nullptr;
+    else
+      return true;
+  }
+  /// Computes fluxes as computeFluxes does, of a single stiffened gas between cells of the grid; several at once.
+  double computeFluxesBetween(const Box& faces, int axis) requires(K == 1) {
+    const double perWidth = dt_ * level_.inverseSpacing(axis);
+    double most = 0;
+    grid::forEachRow<D>(faces, [&](const Index<D>& row, int count) {
+      const double *change = &(*change_)[row], *changeBelow = &(*change_)[row - Index<D>::unit(axis)];
+      const std::ptrdiff_t first = flow_.old().offsetOf(row);
+      const auto to = flux_.at(row);
+      euler::forEachRegister(count, [&](auto number, std::ptrdiff_t i) {
+        using Number = decltype(number);
+        const Number rise = euler::numberAt<Number>(change + i) - euler::numberAt<Number>(changeBelow + i);
+        const Number u = euler::numberAt<Number>(flow_.unchangedAt(axis, first + i)) -
+                         euler::numberAt<Number>(flow_.lossAt(axis, first + i)) * rise;
+        euler::store<D, Number>(to, i, fluxBetween(u, first + i, axis));
+        using std::abs;
+        if constexpr (std::is_same_v<Number, Lanes>)
+          most = std::max(most, greatest(abs(u)));
+        else
+          most = std::max(most, abs(u));
+      });
+    });
+    return most * perWidth;
+  }
+  /// The flux through the face at a place in the rows, or through those that begin there, with the velocity u.
+  template <class Number>
+  [[gnu::always_inline]] euler::State<D, 1, Number> fluxBetween(const Number& u, std::ptrdiff_t place, int axis) const {
+    const euler::StiffenedGas law = euler::lawOf<euler::StiffenedGas>(flow_.gas());
+    const std::ptrdiff_t step = flow_.old().stride(axis);
+    const std::size_t p = euler::kPressure<D>, v = euler::kVelocity(axis);
+    const auto at = [&](const euler::Rows<D>& of, std::size_t k, std::ptrdiff_t from) {
+      return euler::numberAt<Number>(of.component(k) + from);
+    };
+    const auto isFromBelow = u >= 0.0;
+    euler::State<D, 1, Number> w, old;
+    for (std::size_t k = 0; k < w.size(); ++k) {
+      const Number below = at(flow_.old(), k, place - step), above = at(flow_.old(), k, place);
+      old[k] = select(isFromBelow, below, above);
+      w[k] = select(isFromBelow, at(middle_, k, place - step), at(middle_, k, place));
+      if (!flow_.hasSlopes()) continue;
+      const Number outer = select(isFromBelow, below - at(flow_.old(), k, place - 2 * step),
+                                  at(flow_.old(), k, place + step) - above);
+      const Number half = VanLeer::half(above - below, outer);
+      w[k] = select(isFromBelow, w[k] + half, w[k] - half);
+    }
+    const auto fine = (w[euler::kDensity] > 0.0) & (law.heat(w[euler::kDensity], w[p]) > 0.0);
+    for (std::size_t k = 0; k < w.size(); ++k) w[k] = select(fine, w[k], old[k]);
+    const Number below = at(flow_.old(), v, place - step), above = at(flow_.old(), v, place), together = below - above;
+    const Number rho = 0.5 * (at(flow_.old(), euler::kDensity, place - step) + at(flow_.old(), euler::kDensity, place));
+    const Number viscous = select(together > 0.0, law.shockSlope() * rho * together * together, Number(0.0));
+    const Number push = 0.5 * (at(after_, p, place - step) + at(after_, p, place)) + viscous;
+    const Number mass = u * w[euler::kDensity];
+    euler::State<D, 1, Number> flux;
+    flux[euler::kDensity] = mass;
+    for (int k = 0; k < D; ++k) flux[euler::kVelocity(k)] = mass * w[euler::kVelocity(k)];
+    flux[v] += push;
+    flux[p] = u * (euler::conserved<D>(law, w)[p] + push);
+    return flux;
+  }
   /// (gamma + 1) / 2 at a face; for several gases, the mean of the values on both sides.
   double shockSlope(const Index<D>& face, int axis) const {
     if constexpr (K == 1) return flow_.gas().shockSlope();
@@ -146,19 +222,56 @@ class ImplicitStep {
     closeState<D, K>(w);
     return w;
   }
-  /// Computes the change of a cell due to flow, pressure and gravity in half a step.
-  void goHalfway(const Index<D>& cell) {
-    if (flow_.isFlat(cell)) return;
-    const euler::State<D, K> w = flow_.old().state(cell);
-    const auto middle = middle_.at(cell);
-    for (int d = 0; d < D; ++d) {
-      const double ratio = 0.5 * dt_ * level_.inverseSpacing(d);
-      const euler::State<D, K> slopes = flow_.slopes(cell, d);
-      for (std::size_t k = 0; k < w.size(); ++k) *middle[k] -= ratio * w[euler::kVelocity(d)] * slopes[k];
-      const double push = 0.5 * (pressureBeyond(cell, d, 1) - pressureBeyond(cell, d, 0));
-      *middle[euler::kVelocity(d)] +=
-          0.5 * dt_ * flow_.acceleration(d, w[euler::kDensity]) - ratio * push / w[euler::kDensity];
-    }
+  /// Computes the changes of cells due to flow, pressure and gravity in half a step.
+  void goHalfway(const Box& cells) {
+    const auto alone = [&](const Index<D>& cell) {
+      goHalfwayIn(cell, 1, [&](int d, int side, auto, std::ptrdiff_t) { return pressureBeyond(cell, d, side); });
+    };
+    if (flow_.hasFlatCells())
+      return forEach<D>(cells, [&](const Index<D>& cell) {
+        if (!flow_.isFlat(cell)) alone(cell);
+      });
+    grid::forEachRow<D>(cells, [&](const Index<D>& row, int count) {
+      goHalfwayIn(row, count, [&](int d, int side, auto number, std::ptrdiff_t place) {
+        const std::ptrdiff_t step = side == 0 ? -after_.stride(d) : after_.stride(d);
+        return euler::numberAt<decltype(number)>(after_.component(euler::kPressure<D>) + place + step);
+      });
+    });
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        Box beside = cells;
+        (side == 0 ? beside.upper : beside.lower)[d] = side == 0 ? cells.lower[d] + 1 : cells.upper[d] - 1;
+        if (!flow_.isSide(beside.lower[d] + side, d)) continue;
+        forEach<D>(beside, [&](const Index<D>& cell) {
+          if (flow_.isOpen(side == 0 ? cell : cell + Index<D>::unit(d), d)) alone(cell);
+        });
+      }
+  }
+  /// The same in a row of cells. `beyond(axis, side, number, place)` returns p' beyond a face of the cell at a place in
+  /// the rows or, for Lanes, of the cells that begin there.
+  template <class Beyond>
+  void goHalfwayIn(const Index<D>& row, int count, Beyond&& beyond) {
+    const std::ptrdiff_t first = flow_.old().offsetOf(row);
+    const auto to = middle_.at(row);
+    euler::forEachRegister(count, [&](auto number, std::ptrdiff_t i) {
+      using Number = decltype(number);
+      const auto at = [&](std::size_t k, std::ptrdiff_t step) {
+        return euler::numberAt<Number>(flow_.old().component(k) + first + i + step);
+      };
+      euler::State<D, K, Number> w;
+      for (std::size_t k = 0; k < w.size(); ++k) w[k] = at(k, 0);
+      euler::State<D, K, Number> middle = w;
+      for (int d = 0; d < D; ++d) {
+        const double ratio = 0.5 * dt_ * level_.inverseSpacing(d);
+        const std::ptrdiff_t step = flow_.old().stride(d);
+        for (std::size_t k = 0; k < w.size(); ++k)
+          middle[k] -= ratio * w[euler::kVelocity(d)] * (2.0 * VanLeer::half(w[k] - at(k, -step), at(k, step) - w[k]));
+        const Number push = 0.5 * (beyond(d, 1, number, first + i) - beyond(d, 0, number, first + i));
+        middle[euler::kVelocity(d)] +=
+            0.5 * dt_ * flow_.acceleration(d, w[euler::kDensity]) - ratio * push / w[euler::kDensity];
+      }
+      euler::store<D, Number>(to, i, middle);
+    });
   }
 
   const Level& level_;

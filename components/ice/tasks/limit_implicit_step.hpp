@@ -15,6 +15,72 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { pressure[cell] = euler::pressureIn(gas, state, cell); });
 }
 
+/// The rates of PushedGas in cells that no side of the grid touches, for several cells at once.
+template <int D, int K, class DiffusionAt>
+class RatesInside {
+ public:
+  RatesInside(const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing, double soundSpeedKnob,
+              const DiffusionAt& diffusionAt)
+      : gas_(gas), pushing_(pushing), knob_(soundSpeedKnob), diffusion_at_(diffusionAt) {}
+
+  /// The greatest rate of a row of at least Lanes::count cells.
+  double greatest(const Index<D>& row, int count, const euler::CrossingRate<D>& crossing) const {
+    const std::ptrdiff_t first = gas_.old().offsetOf(row);
+    Lanes most = 0.0;
+    for (int i = 0; i < count; i += Lanes::count) {
+      Index<D> cell = row;
+      const int from = std::min(i, count - Lanes::count);
+      cell[0] += from;
+      most = max(most, ratesOf(cell, first + from).rate(crossing));
+    }
+    return tushar::greatest(most);
+  }
+
+ private:
+  PushedGas<D, Lanes> ratesOf(const Index<D>& cell, std::ptrdiff_t place) const {
+    const Lanes sound = knob_ == 0 ? Lanes(0.0) : knob_ * soundSpeeds(cell, place);
+    PushedGas<D, Lanes> crossed;
+    for (int d = 0; d < D; ++d) {
+      const double perWidth = gas_.level().inverseSpacing(d);
+      const std::ptrdiff_t step = gas_.old().stride(d);
+      const Lanes v = Lanes::at(gas_.old().component(euler::kVelocity(d)) + place);
+      crossed.flow[d] = (abs(v) + sound) * perWidth;
+      crossed.diffusion[d] = Lanes::of([&](int lane) {
+        Index<D> at = cell;
+        at[0] += lane;
+        return diffusion_at_(at, d);
+      });
+      crossed.push[d] = perWidth * max(acceleration(place, d, step), acceleration(place + step, d, step));
+    }
+    return crossed;
+  }
+  /// |a_d| at the lower faces of cells [m/s²].
+  Lanes acceleration(std::ptrdiff_t place, int axis, std::ptrdiff_t step) const {
+    const double* rho = gas_.old().component(euler::kDensity) + place;
+    const double* p = pushing_.component(euler::kPressure<D>) + place;
+    const Lanes density = 0.5 * (Lanes::at(rho - step) + Lanes::at(rho));
+    const Lanes gained = gas_.level().inverseSpacing(axis) / density;
+    return abs(gas_.acceleration(axis, density) - gained * (Lanes::at(p) - Lanes::at(p - step)));
+  }
+  Lanes soundSpeeds(const Index<D>& cell, std::ptrdiff_t place) const {
+    if constexpr (K == 1)
+      if (!gas_.gas().law)
+        return sqrt(euler::lawOf<euler::StiffenedGas>(gas_.gas())
+                        .soundSpeedSquared(Lanes::at(gas_.old().component(euler::kDensity) + place),
+                                           Lanes::at(gas_.old().component(euler::kPressure<D>) + place)));
+    return Lanes::of([&](int lane) {
+      Index<D> at = cell;
+      at[0] += lane;
+      return gas_.soundSpeed(at);
+    });
+  }
+
+  const GasBefore<D, K>& gas_;
+  const euler::Rows<D, K>& pushing_;
+  double knob_;
+  const DiffusionAt& diffusion_at_;
+};
+
 /// Returns the greatest rate of PushedGas of the patch [1/s], with the flow (|v_d| + k c) / h_d, the diffusion
 /// `diffusionAt(cell, d)` [1/s] and the push a_d / h_d. It includes the acceleration a_d = |g_d - (dp/dx_d) / rho|, so
 /// that gas initially at rest does not cross a cell within the step. |v_d| is the maximum of the cell's velocity and of
@@ -24,25 +90,27 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
 /// (2009) 4146, section 3.3.
 template <int D, int K, class DiffusionAt>
 double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing,
-                            double soundSpeedKnob, const euler::Courant& courant, DiffusionAt&& diffusionAt) {
+                            double soundSpeedKnob, const euler::Courant& courant, const DiffusionAt& diffusionAt) {
   const euler::CrossingRate<D> crossing(courant);
   const Level& level = patch.level();
   const double second = 1;
+  const std::size_t p = euler::kPressure<D>;
   const auto acceleration = [&](const Index<D>& face, int axis) {
-    const std::size_t p = euler::kPressure<D>;
     const double gained = gas.mobility(face, axis, second);
     if (gained == 0) return 0.0;
-    const double rise = pushing.number(face, p) - pushing.number(face - Index<D>::unit(axis), p);
+    const double* above = pushing.component(p) + pushing.offsetOf(face);
+    const double rise = above[0] - above[-pushing.stride(axis)];
     return std::abs(gas.acceleration(axis, gas.density(face, axis)) - gained * rise);
   };
   const auto speed = [&](const Index<D>& cell, int axis) {
     double most = std::abs(gas.old().number(cell, euler::kVelocity(axis)));
     for (const Index<D>& face : {cell, cell + Index<D>::unit(axis)})
-      if (const auto given = gas.givenVelocity(face, axis)) most = std::max(most, std::abs(*given));
+      if (gas.isOnSide(face, axis))
+        if (const auto given = gas.givenVelocity(face, axis)) most = std::max(most, std::abs(*given));
     return most;
   };
   double greatest = 0;
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+  const auto alone = [&](const Index<D>& cell) {
     const double sound = soundSpeedKnob * gas.soundSpeed(cell);
     PushedGas<D> crossed;
     for (int d = 0; d < D; ++d) {
@@ -52,6 +120,23 @@ double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, cons
       crossed.push[d] = perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
     }
     greatest = std::max(greatest, crossed.rate(crossing));
+  };
+  const RatesInside<D, K, DiffusionAt> inside(gas, pushing, soundSpeedKnob, diffusionAt);
+  grid::forEachRow<D>(patch.cells(), [&](Index<D> first, int count) {
+    bool isAtSide = count < Lanes::count;
+    for (int d = 1; d < D; ++d) isAtSide |= gas.isSide(first[d], d) || gas.isSide(first[d] + 1, d);
+    const int end = first[0] + count;
+    if (!isAtSide && !gas.isSide(first[0], 0) && !gas.isSide(end, 0)) {
+      greatest = std::max(greatest, inside.greatest(first, count, crossing));
+      return;
+    }
+    if (!isAtSide && count > Lanes::count + 2) {
+      alone(first);
+      ++first[0];
+      greatest = std::max(greatest, inside.greatest(first, count - 2, crossing));
+      first[0] = end - 1;
+    }
+    for (; first[0] < end; ++first[0]) alone(first);
   });
   return greatest;
 }

@@ -82,12 +82,18 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
                                            double dt) {
   const double gamma = flow.gas().gamma;
   numerics::CellEquation<D> equation = equationWith(cell, 1);
+  const std::ptrdiff_t at = flow.old().offsetOf(cell);
+  const double* pressure = flow.old().component(euler::kPressure<D>) + at;
   forEachFaceOf<D>(level, cell, dt, [&](const CellFace<D>& face) {
-    const double enthalpy = gamma * flow.stiffPressure(face.index, face.axis);
-    const double velocity = flow.old().number(cell, euler::kVelocity(face.axis));
-    equation.right -= face.out * enthalpy * flow.unchanged(face.index, face.axis);
-    equation.right += 0.5 * (gamma - 1) * face.out * velocity * riseAcross(flow, cell, face);
-    couple(flow, face.next, face.ratio * enthalpy * flow.loss(face.index, face.axis), equation.left);
+    const std::ptrdiff_t step = flow.old().stride(face.axis), beyond = face.side == 0 ? -step : step;
+    const std::ptrdiff_t place = at + (face.side == 0 ? 0 : step);
+    const double enthalpy = gamma * (0.5 * (pressure[std::min<std::ptrdiff_t>(beyond, 0)] +
+                                            pressure[std::max<std::ptrdiff_t>(beyond, 0)]) +
+                                     flow.gas().pInfinity);
+    const double velocity = flow.old().component(euler::kVelocity(face.axis))[at];
+    equation.right -= face.out * enthalpy * *flow.unchangedAt(face.axis, place);
+    equation.right += 0.5 * (gamma - 1) * face.out * velocity * (pressure[beyond] - pressure[0]);
+    couple(flow, face.next, face.ratio * enthalpy * *flow.lossAt(face.axis, place), equation.left);
   });
   return equation;
 }
