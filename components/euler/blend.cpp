@@ -16,6 +16,8 @@ constexpr double roundOff = 4e-15;
 constexpr double nearlyDone = 1e-8;
 /// The relative difference of volume and energy up to which a state is an equilibrium.
 constexpr double tolerance = 1e-8;
+/// How far the sum of volume fractions may be from 1 that Newton's method begins with.
+constexpr double farFromOne = 0.1;
 /// The volume fraction up to which the law of water may be outside the range where it is valid: a trace in hot gas.
 constexpr double leastShareOfWater = 1e-6;
 
@@ -72,6 +74,17 @@ double BlendLaws::Substance::densityAt(double pressure, double temperature, doub
   return rho;
 }
 
+double BlendLaws::Substance::pressureAt(double rho, double temperature) const {
+  const double heat = gruneisen * specificHeat * temperature;
+  if (!law) return (heat * rho - pInfinity) / (1 - covolume * rho);
+  return law->cold().pressure(rho) + heat * (isLinear() ? law->cold().density : rho);
+}
+
+double BlendLaws::Substance::stiffnessAt(double rho, double cold, double temperature) const {
+  const double slope = law ? slopeOf(law->cold(), rho, cold) : 0, room = 1 - covolume * rho;
+  return slope + (isLinear() ? 0 : gruneisen * specificHeat * temperature / (room * room));
+}
+
 /// Sums over the gases at a pressure and a temperature, and their derivatives.
 struct BlendLaws::Sums {
   double volume = 0, energy = 0;                  ///< sum of m / rho, sum of m e
@@ -81,10 +94,8 @@ struct BlendLaws::Sums {
 
   void add(double mass, double rho, const Substance& of, double temperature) {
     const double linear = of.isLinear() ? of.law->cold().density : rho, heat = of.gruneisen * of.specificHeat;
-    const double cold = of.coldPressure(rho), slope = of.law ? slopeOf(of.law->cold(), rho, cold) : 0;
-    const double room = 1 - of.covolume * rho;
-    const double stiffness = slope + (of.isLinear() ? 0 : heat * temperature / (room * room));  // dp/drho at constant T
-    const double perKelvin = heat * linear / room;                                              // dp/dT at constant rho
+    const double cold = of.coldPressure(rho), stiffness = of.stiffnessAt(rho, cold, temperature);
+    const double perKelvin = heat * linear / (1 - of.covolume * rho);  // dp/dT at constant rho
     const double square = rho * rho, yield = mass / (square * stiffness);
     volume += mass / rho;
     energy += mass * (of.coldEnergy(rho) + of.specificHeat * temperature);
@@ -171,7 +182,33 @@ double steppedPressure(double pressure, double change, double softness) {
 
 }  // namespace
 
-Blend BlendLaws::at(const double* masses, double energy) const {
+std::optional<BlendLaws::Guess> BlendLaws::guessFrom(const double* masses, double energy, const double* shares) const {
+  Guess guess{};
+  double cold = 0, capacity = 0, softest = 0, all = 0;
+  for (std::size_t k = 0; k < substances_.size(); ++k) all += shares[k];
+  if (!(std::abs(all - 1) < farFromOne)) return {};  // not volume fractions
+  for (std::size_t k = 0; k < substances_.size(); ++k) {
+    if (!(masses[k] > 0)) continue;
+    if (substances_[k].water || !(shares[k] > 0)) return {};
+    guess.rho[k] = masses[k] / shares[k];
+    cold += masses[k] * substances_[k].coldEnergy(guess.rho[k]);
+    capacity += masses[k] * substances_[k].specificHeat;
+  }
+  guess.temperature = (energy - cold) / capacity;
+  if (!(guess.temperature > 0)) return {};
+  for (std::size_t k = 0; k < substances_.size(); ++k) {
+    if (!(masses[k] > 0)) continue;
+    const double rho = guess.rho[k];
+    const double stiffness = substances_[k].stiffnessAt(rho, substances_[k].coldPressure(rho), guess.temperature);
+    if (!(shares[k] > softest * rho * stiffness)) continue;
+    softest = shares[k] / (rho * stiffness);
+    guess.pressure = substances_[k].pressureAt(rho, guess.temperature);
+  }
+  if (!(guess.pressure > leastPressure && guess.pressure < greatestPressure)) return {};
+  return guess;
+}
+
+Blend BlendLaws::at(const double* masses, double energy, const double* shares) const {
   Blend blend;
   double capacity = 0, whole = energy;  // the energy above 0 K
   for (std::size_t k = 0; k < substances_.size(); ++k) {
@@ -180,10 +217,14 @@ Blend BlendLaws::at(const double* masses, double energy) const {
     whole += std::max(masses[k], 0.0) * substances_[k].heatBelow();
   }
   if (!(whole > 0 && whole <= std::numeric_limits<double>::max()) || !(capacity > 0)) return blend;
-  std::array<double, kMostGases> rho{};
-  for (std::size_t k = 0; k < substances_.size(); ++k)
-    rho[k] = substances_[k].law ? substances_[k].law->cold().density : 1;
-  double pressure = 0.1 * whole, temperature = whole / capacity;
+  std::optional<Guess> found;
+  if (shares) found = guessFrom(masses, energy, shares);
+  if (!found) {
+    found = Guess{0.1 * whole, whole / capacity, {}};
+    for (std::size_t k = 0; k < substances_.size(); ++k)
+      found->rho[k] = substances_[k].law ? substances_[k].law->cold().density : 1;
+  }
+  auto& [pressure, temperature, rho] = *found;
   bool isDone = false;
   for (int k = 0; k < 100 && !isDone; ++k) {
     const Sums s = sumsAt(masses, pressure, temperature, rho);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,9 @@ class BlendLaws {
   /// The equilibrium in a cell, given the mass of each gas per volume of the cell [kg/m³] and the internal energy per
   /// volume [J/m³]: p and T with sum of m_k / rho_k(p, T) = 1 and sum of m_k e_k = e, by Newton's method to round-off.
   /// A liquid that does not fill the cell alone has almost no pressure. A mass below 0, which round-off of fluxes may
-  /// leave, counts as 0.
-  Blend at(const double* masses, double energy) const;
+  /// leave, counts as 0. If there are `shares`, the volume fractions of a state nearby, Newton's method begins with
+  /// them; with those of the equilibrium itself, it takes one step.
+  Blend at(const double* masses, double energy, const double* shares = nullptr) const;
 
   /// Sets p and, in place of the volume fractions, G and S in a state that contains the density, the masses, and the
   /// total energy; sets velocities in place of the momenta.
@@ -51,7 +53,7 @@ class BlendLaws {
     const double inverse = 1 / u[kDensity];
     for (int k = 0; k < D; ++k) w[kVelocity(k)] = u[kVelocity(k)] * inverse;
     const double energy = u[kPressure<D>] - 0.5 * u[kDensity] * speedSquared<D>(w);
-    const Blend blend = at(&u[kMass<D>(0)], energy);
+    const Blend blend = at(&u[kMass<D>(0)], energy, &u[kShare<D, K>(0)]);
     const MixedGas law = blend.law(energy);
     w[kPressure<D>] = blend.pressure;
     for (int k = 0; k < K; ++k) w[kShare<D, K>(k)] = k == 0 ? law.softness : k == 1 ? law.stiffness : 0;
@@ -79,9 +81,21 @@ class BlendLaws {
     double heatBelow() const { return water ? water->heatBelow() : 0; }
     /// The density [kg/m³] at a given pressure [Pa] and temperature [K]; Newton's method begins at `guess`.
     double densityAt(double pressure, double temperature, double guess) const;
+    /// The pressure [Pa] at a given density [kg/m³] and temperature [K]; not of water.
+    double pressureAt(double rho, double temperature) const;
+    /// dp/drho at constant temperature [m²/s²], given the cold pressure; not of water.
+    double stiffnessAt(double rho, double cold, double temperature) const;
   };
   struct Sums;
+  /// Where Newton's method begins.
+  struct Guess {
+    double pressure, temperature;
+    std::array<double, kMostGases> rho{};  ///< the density of each gas [kg/m³]
+  };
 
+  /// The state with given volume fractions and energy: its temperature, and the pressure of the softest gas. None if it
+  /// is impossible, or for water.
+  std::optional<Guess> guessFrom(const double* masses, double energy, const double* shares) const;
   Sums sumsAt(const double* masses, double pressure, double temperature, std::array<double, kMostGases>& rho) const;
   /// The temperature at which the gases have a given energy at a given pressure.
   double temperatureAt(const double* masses, double energy, double pressure, std::array<double, kMostGases>& rho) const;

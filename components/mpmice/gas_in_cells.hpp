@@ -30,9 +30,13 @@ struct Parcel {
 template <int D, class T>
 euler::Blend blendAt(const Settings& settings, const euler::MixtureViews<D, T>& held, double free,
                      const Index<D>& cell) {
-  std::array<double, euler::kMostGases> masses{};
-  for (std::size_t k = 0; k < held.masses.size(); ++k) masses[k] = held.masses[k][cell] / free;
-  return settings.gases.front().blend->at(masses.data(), euler::internalEnergyIn<D, T>(held, cell) / free);
+  std::array<double, euler::kMostGases> masses{}, shares{};
+  for (std::size_t k = 0; k < held.masses.size(); ++k) {
+    masses[k] = held.masses[k][cell] / free;
+    shares[k] = held.shares[k][cell];
+  }
+  return settings.gases.front().blend->at(masses.data(), euler::internalEnergyIn<D, T>(held, cell) / free,
+                                          shares.data());
 }
 
 /// Whether one of several gases is neither ideal nor stiffened.

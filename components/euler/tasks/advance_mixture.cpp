@@ -15,7 +15,7 @@ bool isPossible(const std::vector<Settings>& gases, const std::vector<Held>& hel
                 const Index<D>& cell) {
   const double energy = internalEnergyIn<D>(state, cell);
   if (gases.front().blend)
-    return state.density[cell] > 0 && gases.front().blend->at(massesIn(held, cell).data(), energy).isPossible;
+    return state.density[cell] > 0 && blendAt(gases, held, energy, cell).isPossible;
   const Gas alike = mixedAt(gases, held, cell).alike();
   return canBe<D>(alike, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
 }
@@ -93,9 +93,12 @@ void closeBlend(const Patch& patch, const std::vector<Settings>& gases, CellView
   const BlendLaws& laws = *gases.front().blend;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double energy = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
-    std::array<double, kMostGases> held{};
-    for (std::size_t k = 0; k < masses.size(); ++k) held[k] = masses[k][cell];
-    const Blend blend = laws.at(held.data(), energy);
+    std::array<double, kMostGases> held{}, guess{};
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      held[k] = masses[k][cell];
+      guess[k] = shares[k][cell];
+    }
+    const Blend blend = laws.at(held.data(), energy, guess.data());
     if (!(density[cell] > 0) || !blend.isPossible) refuseBlend<D>(laws, patch.level(), cell, held, energy);
     for (std::size_t k = 0; k < shares.size(); ++k) shares[k][cell] = blend.shares[k];
   });

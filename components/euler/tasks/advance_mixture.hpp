@@ -38,11 +38,25 @@ std::array<double, kMostGases> massesIn(const std::vector<Held>& held, const Ind
   return masses;
 }
 
+/// The volume fractions of each gas in a cell; 0 for gases that do not exist.
+template <class Held, int D>
+std::array<double, kMostGases> sharesIn(const std::vector<Held>& held, const Index<D>& cell) {
+  std::array<double, kMostGases> shares{};
+  for (std::size_t k = 0; k < held.size(); ++k) shares[k] = held[k].share[cell];
+  return shares;
+}
+
+/// The equilibrium of gases with laws of their own in a cell; `energy` is the internal energy per volume [J/m³].
+template <class Held, int D>
+Blend blendAt(const std::vector<Settings>& gases, const std::vector<Held>& held, double energy, const Index<D>& cell) {
+  return gases.front().blend->at(massesIn(held, cell).data(), energy, sharesIn(held, cell).data());
+}
+
 /// The law of the gases in a cell, each of any law; `energy` is the internal energy per volume [J/m³].
 template <class Held, int D>
 MixedGas lawAt(const std::vector<Settings>& gases, const std::vector<Held>& held, double energy, const Index<D>& cell) {
   if (!gases.front().blend) return mixedAt(gases, held, cell);
-  return gases.front().blend->at(massesIn(held, cell).data(), energy).law(energy);
+  return blendAt(gases, held, energy, cell).law(energy);
 }
 
 /// The laws of K gases.

@@ -9,7 +9,7 @@
 
 #define TUSHAR_BLOCK_FLUXES(WORD, D, AXIS, K)                                                                   \
   WORD template void addFluxes<D, AXIS, K>(double, const Box&, const ViewsOf<D, K, const double>&, Rows<D, K>&, \
-                                           const ViewsOf<D, K, double>&);
+                                           const ViewsOf<D, K, double>&, bool);
 #define TUSHAR_BLOCK_AXIS(WORD, D, AXIS, SHAPE, G)                                                     \
   WORD template void computeFluxes<D, Hllc, SHAPE, AXIS, G>(const G&, const Box&, Work<D, kGases<G>>&, \
                                                             Rows<D, kGases<G>>&);

@@ -186,10 +186,11 @@ void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Row
   });
 }
 
-/// Adds the net inflow of each of several gases along an axis.
+/// Adds the net inflow of each of several gases along an axis. If they `areBlended`, their volume fractions stay what
+/// they are, until their equilibrium is found.
 template <int D, int Axis, int K>
 void addFluxesOfEach(double ratio, const Index<D>& first, int count, const MixtureViews<D, const double>& old,
-                     Rows<D, K>& flux, const MixtureViews<D, double>& fresh) {
+                     Rows<D, K>& flux, const MixtureViews<D, double>& fresh, bool areBlended) {
   const auto below = flux.at(first), above = flux.at(first + Index<D>::unit(Axis));
   std::array<const double*, K> in, out;
   for (int k = 0; k < K; ++k) in[k] = below[kShare<D, K>(k)], out[k] = above[kShare<D, K>(k)];
@@ -197,14 +198,18 @@ void addFluxesOfEach(double ratio, const Index<D>& first, int count, const Mixtu
     const double *mass = rowOf(old.masses[k], first, count), *share = rowOf(old.shares[k], first, count);
     double *newMass = rowOf(fresh.masses[k], first, count), *newShare = rowOf(fresh.shares[k], first, count);
     updateRow(Axis == 0 ? mass : newMass, below[kMass<D>(k)], above[kMass<D>(k)], ratio, 1, count, newMass);
-    updateShareRow<K>(share, Axis == 0 ? share : newShare, in, out, k, ratio, count, newShare);
+    if (!areBlended)
+      updateShareRow<K>(share, Axis == 0 ? share : newShare, in, out, k, ratio, count, newShare);
+    else if (Axis == 0)
+      std::copy_n(share, count, newShare);
   }
 }
 
-/// Adds the net inflow along an axis: for the first axis, to the old state; for the others, to the new one.
+/// Adds the net inflow along an axis: for the first axis, to the old state; for the others, to the new one. `areBlended`
+/// is that of the gas.
 template <int D, int Axis, int K>
 void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
-               const ViewsOf<D, K, double>& fresh) {
+               const ViewsOf<D, K, double>& fresh, [[maybe_unused]] bool areBlended = false) {
   forEachRow<D>(block, [&](const Index<D>& first, int count) {
     const auto below = flux.at(first), above = flux.at(first + Index<D>::unit(Axis));
     const auto update = [&](const double* from, double* to, std::size_t number, int step) {
@@ -215,7 +220,7 @@ void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>
     double* newMomentum = rowOf(fresh.momentum, first, count)->data();
     for (int k = 0; k < D; ++k) update(momentum + k, newMomentum + k, kVelocity(k), D);
     update(rowOf(old.totalEnergy, first, count), rowOf(fresh.totalEnergy, first, count), kPressure<D>, 1);
-    if constexpr (K > 1) addFluxesOfEach<D, Axis, K>(ratio, first, count, old, flux, fresh);
+    if constexpr (K > 1) addFluxesOfEach<D, Axis, K>(ratio, first, count, old, flux, fresh, areBlended);
   });
 }
 
@@ -272,7 +277,7 @@ void sweep(const G& gas, const Level& level, const Box& block, double dt,
            const ViewsOf<D, kGases<G>, const double>& old, Work<D, kGases<G>>& work,
            const ViewsOf<D, kGases<G>, double>& fresh, const RimFluxes<D>& rims) {
   crossFaces<D, Flux, Shape, Axis>(gas, block, work, work.flux, rims);
-  addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
+  addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh, areBlended(gas));
 }
 
 /// Performs a step for a block of cells.

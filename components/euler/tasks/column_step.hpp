@@ -86,7 +86,7 @@ class ColumnStep {
     if constexpr (isSingle)
       addAllFluxes<3>(level_, plane, dt_, old_, work_, fresh_);
     else
-      addFluxes<3, z>(dt_ / level_.spacing(z), plane, old_, rising_, fresh_);
+      addFluxes<3, z>(dt_ / level_.spacing(z), plane, old_, rising_, fresh_, areBlended(gas_));
   }
   /// The fluxes along z through the faces of two planes.
   Rows<3, kGases<G>>& rising() {

@@ -47,7 +47,7 @@ void reactGas(const Patch& patch, const Gases& gases, const Reaction& one, doubl
     const double energy = euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
     double pressure = 0;
     if (gases.front().blend) {  // their volume fractions are found after all sources
-      const euler::Blend blend = gases.front().blend->at(euler::massesIn(held, cell).data(), energy);
+      const euler::Blend blend = euler::blendAt(gases, held, energy, cell);
       there.share = blend.shares[one.from];
       pressure = blend.pressure;
     } else {

@@ -109,7 +109,7 @@ template <int D>
 double temperatureAt(const Gases& gases, const euler::OldState<D>& state, const std::vector<euler::OldGas>& held,
                      const Index<D>& cell) {
   double heat = euler::internalEnergyIn<D, const double>(state, cell), capacity = 0;
-  if (gases.front().blend) return gases.front().blend->at(euler::massesIn(held, cell).data(), heat).temperature;
+  if (gases.front().blend) return euler::blendAt(gases, held, heat, cell).temperature;
   for (std::size_t k = 0; k < gases.size(); ++k) {
     heat -= held[k].share[cell] * gases[k].gas.pInfinity;
     capacity += held[k].mass[cell] * gases[k].gas.specificHeat;

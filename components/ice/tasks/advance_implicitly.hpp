@@ -79,6 +79,7 @@ class ImplicitStep {
     return most;
   }
   euler::Rows<D, K>& flux() { return flux_; }
+  bool areBlended() const { return euler::areBlended(flow_.gas()); }
 
   /// Adds gravity and the driving force along an axis to each cell of a block, in equal parts at the two faces normal
   /// to the axis, and its work on the flow through these faces. So stratified gas remains at rest.
@@ -292,7 +293,8 @@ double advanceBlockImplicitly(const Level& level, const Box& block, const euler:
     Box faces = block;
     ++faces.upper[Axis];
     most = std::max(most, step.computeFluxes(faces, Axis));
-    euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh);
+    euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh,
+                              step.areBlended());
     step.addGravity(block, Axis, fresh);
     masses.keep(block, Axis, step.flux());
   };

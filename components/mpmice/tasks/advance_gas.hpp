@@ -121,7 +121,7 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   closeFaces<D>(level, exchange.space(), near, faces, Axis, work.flux);
   euler::keepAtRim<D>(fresh.rims, faces, Axis, work.flux);
   fresh.rims.masses.keep(block, Axis, work.flux);
-  euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh.held);
+  euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh.held, euler::areBlended(gas));
   if constexpr (constexpr int K = euler::kGases<G>; K > 1)
     if (exchange.fillsVacuum())
       addToVacuum<D, Axis, K>(exchange.space(), near, block, ratio, work.flux, fresh.held.shares);

@@ -137,9 +137,12 @@ class HeatExchange {
   void addBlend(const Index<D>& cell, double internal, ice::WarmThings<Most>& things) const {
     const auto first = static_cast<Eigen::Index>(bodies_.size());
     const double free = gas_.free[cell];
-    std::array<double, euler::kMostGases> masses{};
-    for (std::size_t k = 0; k < gas_.masses.size(); ++k) masses[k] = gas_.masses[k][cell] / free;
-    const euler::Blend blend = settings_.gases.front().blend->at(masses.data(), internal / free);
+    std::array<double, euler::kMostGases> masses{}, shares{};
+    for (std::size_t k = 0; k < gas_.masses.size(); ++k) {
+      masses[k] = gas_.masses[k][cell] / free;
+      shares[k] = gas_.shares[k][cell];
+    }
+    const euler::Blend blend = settings_.gases.front().blend->at(masses.data(), internal / free, shares.data());
     for (std::size_t k = 0; k < gas_.masses.size(); ++k) {
       if (!blend.isPossible || !(gas_.masses[k][cell] > ice::leastPartOfMass * gas_.density[cell])) continue;
       const auto at = first + static_cast<Eigen::Index>(k);

@@ -34,7 +34,9 @@ struct ReactingGas {
   }
   /// The equilibrium of gases with laws of their own.
   euler::Blend blend(const Settings& settings, const Index<D>& cell) const {
-    return settings.gases.front().blend->at(own(cell).data(), energy(cell));
+    std::array<double, euler::kMostGases> guess{};
+    for (std::size_t k = 0; k < shares.size(); ++k) guess[k] = shares[k][cell];
+    return settings.gases.front().blend->at(own(cell).data(), energy(cell), guess.data());
   }
   /// What a reaction finds in a cell that contains gas: its masses and volume fraction, and the pressure.
   std::pair<ice::Reactants, double> reactants(const Settings& settings, const ice::Reaction& one,
