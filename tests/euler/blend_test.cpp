@@ -72,6 +72,35 @@ TEST(Blend, FindsPressureAndTemperature) {
         }
 }
 
+TEST(Blend, IsTheSameWhereverItsSearchBegins) {
+  const std::vector<std::vector<Gas>> groups{
+      {explosive(), jwlc(), air()}, {jwl(), air(), explosive()}, {spheres(), air(), explosive()}};
+  for (const std::vector<Gas>& gases : groups)
+    for (const double pressure : {2e4, 101325.0, 1e7, 5e9, 3e10})
+      for (const double temperature : {250.0, 3000.0})
+        for (const std::vector<double>& shares :
+             {std::vector{.3, .6, .1}, {.9, .1 - 1e-9, 1e-9}, {1e-12, .5, .5 - 1e-12}}) {
+          Masses masses;
+          const double energy = energyOf(gases, shares, pressure, temperature, masses);
+          const BlendLaws laws(gases);
+          const Blend expected = laws.at(masses.data(), energy);
+          const std::vector<Masses> guesses{{shares[0], shares[1], shares[2]},
+                                            {shares[0] * 1.01, shares[1] * .99, shares[2]},
+                                            {shares[2], shares[0], shares[1]},
+                                            {1e-3, .998, 1e-3},
+                                            {0, .5, .5},
+                                            {-1, 1, 1},
+                                            {3e9, -2, 0}};
+          for (const Masses& guess : guesses) {
+            const Blend found = laws.at(masses.data(), energy, guess.data());
+            ASSERT_EQ(found.isPossible, expected.isPossible);
+            EXPECT_NEAR(found.pressure, expected.pressure, 1e-11 * expected.pressure + 1e-11 * expected.modulus);
+            EXPECT_NEAR(found.temperature, expected.temperature, 1e-11 * temperature);
+            for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found.shares[k], expected.shares[k], 1e-11 * shares[k]);
+          }
+        }
+}
+
 TEST(Blend, OfWaterFindsPressureAndTemperature) {
   const std::vector<Gas> gases{water(), air(), spheres()};
   for (const double pressure : {2e4, 101325.0, 2e6, 1e8})
