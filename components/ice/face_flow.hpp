@@ -84,6 +84,10 @@ class GasBefore {
     else
       euler::recover<D>(gas_, level_, old_.box(), before, old_);
     euler::fillBeyondGrid<D>(level_, rules_, old_);
+    has_flat_cells_ = false;
+    if (is_flat_)
+      forEach<D>(level_.clipCells(box.grown(-1, D)),
+                 [&](const Index<D>& cell) { has_flat_cells_ = has_flat_cells_ || is_flat_(cell); });
   }
 
   const Level& level() const { return level_; }
@@ -125,7 +129,8 @@ class GasBefore {
   bool isOnSide(const Index<D>& face, int axis) const { return isSide(face[axis], axis); }
   bool isSide(int place, int axis) const { return place == sides_[axis][0] || place == sides_[axis][1]; }
   bool isFlat(const Index<D>& cell) const { return is_flat_ && is_flat_(cell); }
-  bool hasFlatCells() const { return static_cast<bool>(is_flat_); }
+  /// Whether isFlat is true in one of the cells that are held, except for the outermost ones.
+  bool hasFlatCells() const { return has_flat_cells_; }
   /// The limited differences of the state across a cell along an axis.
   euler::State<D, K> slopes(const Index<D>& cell, int axis) const {
     euler::State<D, K> slopes{};
@@ -202,6 +207,7 @@ class GasBefore {
   const LawsOf<K>& gas_;
   Vec<D> gravity_, push_;
   IsFlat<D> is_flat_;
+  bool has_flat_cells_ = false;
   euler::Rows<D, K> old_;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -22,6 +24,9 @@ struct CellEquation {
   Balance<D> left;
   double right;
 };
+
+/// Says that equations are not given row by row.
+struct NoRows {};
 
 /// A linear system with one unknown and one equation for each cell of the grid, on all levels, solved by all ranks
 /// together. It is assembled, solved and read out within one step. On several levels, the matrix need not be symmetric,
@@ -44,15 +49,16 @@ class CellSystem {
 
   /// Solves for the unknowns, starting from the values in `guess` of each patch. `equationOf(p, cell)` returns the
   /// CellEquation of a cell of patch number p of the rank; on several levels it is called twice for cells at the faces
-  /// of a patch. `scale`: see solvers::LinearProblem.
-  template <class EquationOf>
+  /// of a patch. `scale`: see solvers::LinearProblem. For speed, `fillRow(p, first, count, BoxRow)` may write the same
+  /// equations, of `count` cells along the first axis.
+  template <class EquationOf, class FillRow = NoRows>
   solvers::Outcome solve(const solvers::LinearSettings& settings,
                          const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf,
-                         double scale = 0) {
+                         double scale = 0, const FillRow& fillRow = {}) {
     const bool isRefined = grid_.levels() > 1;
     if (!isRefined && unknowns_.ranks->isAlone() && solvers::suitsBox(settings) &&
         !solvers::isDirect(unknowns_, settings))
-      if (auto outcome = solveOnBox(settings, guess, equationOf, scale)) return *std::move(outcome);
+      if (auto outcome = solveOnBox(settings, guess, equationOf, scale, fillRow)) return *std::move(outcome);
     if (isRefined) meetOthers(equationOf);
     std::vector<double> right(unknowns_.entries.size());
     solution_.resize(right.size());
@@ -87,10 +93,10 @@ class CellSystem {
 
  private:
   /// Solves without PETSc; returns nothing if that is not possible.
-  template <class EquationOf>
+  template <class EquationOf, class FillRow>
   std::optional<solvers::Outcome> solveOnBox(const solvers::LinearSettings& settings,
                                              const std::vector<data::CellView<const double>>& guess,
-                                             EquationOf&& equationOf, double scale) {
+                                             EquationOf&& equationOf, double scale, const FillRow& fillRow) {
     const grid::Level& level = grid_.level();
     solvers::CellBox box;
     for (int d = 0; d < D; ++d) {
@@ -100,28 +106,50 @@ class CellSystem {
     solvers::BoxSystem system(box);
     system.scale = scale;
     system.constantIsFree = unknowns_.constantIsFree;
-    const auto offsetOf = [&](const Index<D>& cell) {
-      return system.matrix.shape.offset(cell[0], D > 1 ? cell[D > 1 ? 1 : 0] : 0, D > 2 ? cell[D - 1] : 0);
-    };
-    solvers::BoxAssembly assembly(system.matrix);
     const solvers::Stopwatch assembling;
-    forEachCell([&](std::size_t p, const Index<D>& cell) {
-      const CellEquation<D> equation = equationOf(p, cell);
-      const Balance<D>& left = equation.left;
-      const std::ptrdiff_t at = offsetOf(cell);
-      system.matrix.diagonal[at] = left.weights[0];
-      system.b[at] = equation.right;
-      system.x[at] = guess[p][cell];
-      for (std::size_t k = 1; k < left.count; ++k) assembly.link(at, offsetOf(left.cells[k]), -left.weights[k]);
-    });
-    if (!assembly.finish()) return {};
+    if (!fillBox(system, guess, equationOf, fillRow)) return {};
     const double duration = assembling.seconds();
     std::optional<solvers::Outcome> outcome = solvers::solve(system, settings);
     if (!outcome) return {};
     outcome->assembly = duration;
     solution_.resize(unknowns_.entries.size());
-    forEachCell([&](std::size_t p, const Index<D>& cell) { solution_[rowOf(p, cell)] = system.x[offsetOf(cell)]; });
+    forEachRow([&](std::size_t p, const Index<D>& first, int count) {
+      std::copy_n(system.x.begin() + offsetIn(system, first), count, solution_.begin() + rowOf(p, first));
+    });
     return outcome;
+  }
+  /// Returns whether the equations suit a BoxSystem.
+  template <class EquationOf, class FillRow>
+  bool fillBox(solvers::BoxSystem& system, const std::vector<data::CellView<const double>>& guess,
+               EquationOf&& equationOf, const FillRow& fillRow) const {
+    solvers::BoxAssembly assembly(system.matrix);
+    forEachRow([&](std::size_t p, const Index<D>& first, int count) {
+      const std::ptrdiff_t start = offsetIn(system, first);
+      std::copy_n(&guess[p][first], count, system.x.begin() + start);
+      if constexpr (!std::is_same_v<FillRow, NoRows>) {
+        fillRow(p, first, count, solvers::BoxRow<D>(system, start));
+      } else {
+        Index<D> cell = first;
+        for (std::ptrdiff_t at = start; at < start + count; ++at, ++cell[0]) {
+          const CellEquation<D> equation = equationOf(p, cell);
+          const Balance<D>& left = equation.left;
+          system.matrix.diagonal[at] = left.weights[0];
+          system.b[at] = equation.right;
+          for (std::size_t k = 1; k < left.count; ++k)
+            assembly.link(at, offsetIn(system, left.cells[k]), -left.weights[k]);
+        }
+      }
+    });
+    return assembly.finish();
+  }
+  static std::ptrdiff_t offsetIn(const solvers::BoxSystem& system, const Index<D>& cell) {
+    return system.matrix.shape.offset(cell[0], D > 1 ? cell[D > 1 ? 1 : 0] : 0, D > 2 ? cell[D - 1] : 0);
+  }
+  template <class Visit>
+  void forEachRow(Visit&& visit) const {
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+      grid::forEachRow<D>(patches_[p]->cells(),
+                          [&](const Index<D>& first, int count) { visit(p, first, count); });
   }
   template <class Visit>
   void forEachCell(Visit&& visit) const {

@@ -24,6 +24,18 @@ struct BoxSystem {
   bool constantIsFree = false;  ///< see Unknowns
 };
 
+/// Where the equations of consecutive cells along the first axis are written; `links` are those through upper faces.
+template <int D>
+struct BoxRow {
+  double *diagonal, *right;
+  std::array<double*, D> links;
+
+  BoxRow(BoxSystem& system, std::ptrdiff_t first)
+      : diagonal(system.matrix.diagonal.data() + first), right(system.b.data() + first) {
+    for (int d = 0; d < D; ++d) links[d] = system.matrix.links[d].data() + first;
+  }
+};
+
 /// Replaces the initial guess x by the solution. Returns nothing, and leaves an arbitrary x, if the matrix is not
 /// positive definite, or not symmetric. `worst` of the outcome counts cells, the first axis fastest.
 std::optional<Outcome> solve(BoxSystem& system, const LinearSettings& settings);

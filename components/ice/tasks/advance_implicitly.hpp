@@ -39,7 +39,7 @@ class ImplicitStep {
   /// fraction of a cell that flows through a face.
   double computeFluxes(const Box& faces, int axis) {
     const auto all = [](const Index<D>&) { return 1.0; };
-    if (K > 1 || hasOwnLaw()) return computeFluxes(faces, axis, all);
+    if (K > 1 || hasOwnLaw() || flow_.hasFlatCells()) return computeFluxes(faces, axis, all);
     Box between = faces;  // those between cells of the grid
     double most = 0;
     for (const int side : {0, 1}) {

@@ -70,32 +70,85 @@ double riseAcross(const FaceFlow<D, K>& flow, const Index<D>& cell, const CellFa
   return flow.old().number(face.next, euler::kPressure<D>) - flow.old().number(cell, euler::kPressure<D>);
 }
 
-/// The equation for the change p' - p of a cell's pressure. It follows from the equation of the internal energy, (rho
-/// e)' = rho e - dt div((rho e + p) u_f) + dt v . grad p, with u_f of p', but with the enthalpy at faces and v . grad p
-/// before the step. In gas, rho e + p = gamma (p + p_inf) / (gamma - 1). With d = p' - p, and u_f of d = 0, this gives
+/// The equations for the changes d of the pressures of cells: d - sum over the faces of link (d_n - d) = right. Numbers
+/// are double or Lanes.
+template <int D, class Number = double>
+struct PressureEquations {
+  std::array<std::array<Number, 2>, D> links;  ///< through the lower and the upper face along each axis
+  Number right = 0.0;
+};
+
+/// The equation for the change p' - p of the pressure of the cell at a place in the rows of the flow or, for Lanes, of
+/// the cells that begin there. It follows from the equation of the internal energy, (rho e)' = rho e - dt div((rho e +
+/// p) u_f) + dt v . grad p, with u_f of p', but with the enthalpy at faces and v . grad p before the step. In gas, rho
+/// e + p = gamma (p + p_inf) / (gamma - 1). With d = p' - p, and u_f of d = 0, this gives
 ///
 ///   d - dt div(gamma P_f loss_f (d_R - d_L)) = -dt div(gamma P_f u_f) + (gamma - 1) dt v . grad p,
 ///
 /// which is symmetric and positive definite.
+template <int D, class Number = double>
+[[gnu::always_inline]] inline PressureEquations<D, Number> pressureEquationsAt(const FaceFlow<D>& flow,
+                                                                               std::ptrdiff_t place, double dt) {
+  const double gamma = flow.gas().gamma;
+  const auto pressure = [&](std::ptrdiff_t step) {
+    return euler::numberAt<Number>(flow.old().component(euler::kPressure<D>) + place + step);
+  };
+  const Number middle = pressure(0);
+  PressureEquations<D, Number> equations;
+  for (int d = 0; d < D; ++d) {
+    const double ratio = dt * flow.level().inverseSpacing(d);
+    const Number velocity = euler::numberAt<Number>(flow.old().component(euler::kVelocity(d)) + place);
+    for (const int side : {0, 1}) {
+      const std::ptrdiff_t step = flow.old().stride(d), face = place + (side == 0 ? 0 : step);
+      const double out = side == 0 ? -ratio : ratio;
+      const Number beyond = pressure(side == 0 ? -step : step);
+      const Number enthalpy = gamma * (0.5 * (middle + beyond) + flow.gas().pInfinity);
+      equations.right -= out * enthalpy * euler::numberAt<Number>(flow.unchangedAt(d, face));
+      equations.right += 0.5 * (gamma - 1) * out * velocity * (beyond - middle);
+      equations.links[d][side] = ratio * enthalpy * euler::numberAt<Number>(flow.lossAt(d, face));
+    }
+  }
+  return equations;
+}
+
+/// The equation of a cell.
 template <int D>
 numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>& flow, const Index<D>& cell,
                                            double dt) {
-  const double gamma = flow.gas().gamma;
   numerics::CellEquation<D> equation = equationWith(cell, 1);
-  const std::ptrdiff_t at = flow.old().offsetOf(cell);
-  const double* pressure = flow.old().component(euler::kPressure<D>) + at;
+  const PressureEquations<D> of = pressureEquationsAt<D>(flow, flow.old().offsetOf(cell), dt);
   forEachFaceOf<D>(level, cell, dt, [&](const CellFace<D>& face) {
-    const std::ptrdiff_t step = flow.old().stride(face.axis), beyond = face.side == 0 ? -step : step;
-    const std::ptrdiff_t place = at + (face.side == 0 ? 0 : step);
-    const double enthalpy = gamma * (0.5 * (pressure[std::min<std::ptrdiff_t>(beyond, 0)] +
-                                            pressure[std::max<std::ptrdiff_t>(beyond, 0)]) +
-                                     flow.gas().pInfinity);
-    const double velocity = flow.old().component(euler::kVelocity(face.axis))[at];
-    equation.right -= face.out * enthalpy * *flow.unchangedAt(face.axis, place);
-    equation.right += 0.5 * (gamma - 1) * face.out * velocity * (pressure[beyond] - pressure[0]);
-    couple(flow, face.next, face.ratio * enthalpy * *flow.lossAt(face.axis, place), equation.left);
+    couple(flow, face.next, of.links[face.axis][face.side], equation.left);
   });
+  equation.right = of.right;
   return equation;
+}
+
+/// Sets the equations of a row of cells.
+template <int D>
+void fillPressureEquations(const FaceFlow<D>& flow, const Index<D>& row, int count, double dt,
+                           const solvers::BoxRow<D>& to) {
+  const std::ptrdiff_t first = flow.old().offsetOf(row);
+  euler::forEachRegister(count, [&](auto number, std::ptrdiff_t i) {
+    using Number = decltype(number);
+    const PressureEquations<D, Number> of = pressureEquationsAt<D, Number>(flow, first + i, dt);
+    Number diagonal = 1.0;
+    for (int d = 0; d < D; ++d) {
+      for (const Number& link : of.links[d]) diagonal += link;
+      euler::put(of.links[d][1], to.links[d] + i);
+    }
+    euler::put(diagonal, to.diagonal + i);
+    euler::put(of.right, to.right + i);
+  });
+  for (int d = 0; d < D; ++d) {
+    Index<D> last = row;
+    last[0] += count - 1;
+    if (!flow.isSide(last[d] + 1, d)) continue;
+    if (d == 0)
+      to.links[0][count - 1] = 0;
+    else
+      std::fill_n(to.links[d], count, 0.0);
+  }
 }
 
 /// 1 / (rho c²) of a cell [1/Pa].
@@ -141,11 +194,11 @@ double stiffPressureIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
 /// end of the previous step. The residual measures by how much the gas would miss the computed pressure, in the unit of
 /// the equation. Therefore, the tolerance is relative to the largest pressure in that unit, `scaleOf(p, cell)`, or to
 /// the right-hand side if it is larger. Throws NumericalError if the solver fails.
-template <int D, int K, class IsEmpty, class EquationOf, class ScaleOf>
+template <int D, int K, class IsEmpty, class EquationOf, class ScaleOf, class FillRow = numerics::NoRows>
 void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
                     const std::vector<FaceFlow<D, K>>& flows, const std::vector<CellView<const double>>& guess,
                     const std::vector<PressureViews>& fresh, const SolveTotals& totals, IsEmpty&& isEmpty,
-                    EquationOf&& equationOf, ScaleOf&& scaleOf) {
+                    EquationOf&& equationOf, ScaleOf&& scaleOf, const FillRow& fillRow = {}) {
   const auto old = [&](std::size_t p, const Index<D>& cell) {
     return flows[p].old().number(cell, euler::kPressure<D>);
   };
@@ -163,7 +216,7 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
   const double cells = static_cast<double>(patches.front()->level().cells().size());
   numerics::CellSystem<D> system(patches, ranks);
   const solvers::Outcome outcome =
-      system.solve(settings.solver, first, equationOf, ranks.max(greatest) * std::sqrt(cells));
+      system.solve(settings.solver, first, equationOf, ranks.max(greatest) * std::sqrt(cells), fillRow);
   system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
                             ", or a smaller <delt_max>");
   system.take(changes);
@@ -186,14 +239,20 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
   std::vector<FaceFlow<D>> flows;
   for (std::size_t p = 0; p < patches.size(); ++p)
     flows.emplace_back(level, method, settings, rules, patches[p]->cells(), dt).hold(patches[p]->cells(), before[p]);
+  const auto none = [](std::size_t, const Index<D>&) { return false; };
+  if (method.gas.law)
+    return solveForChange<D>(
+        patches, ranks, settings, flows, guess, fresh, totals, none,
+        [&](std::size_t p, const Index<D>& cell) { return equationByLaw<D>(level, flows[p], cell, dt); },
+        [&](std::size_t p, const Index<D>& cell) {
+          return stiffPressureIn(flows[p], cell) * softnessIn(flows[p], cell);
+        });
   solveForChange<D>(
-      patches, ranks, settings, flows, guess, fresh, totals, [](std::size_t, const Index<D>&) { return false; },
-      [&](std::size_t p, const Index<D>& cell) {
-        return method.gas.law ? equationByLaw<D>(level, flows[p], cell, dt)
-                              : pressureEquation<D>(level, flows[p], cell, dt);
-      },
-      [&](std::size_t p, const Index<D>& cell) {
-        return stiffPressureIn(flows[p], cell) * (method.gas.law ? softnessIn(flows[p], cell) : 1.0);
+      patches, ranks, settings, flows, guess, fresh, totals, none,
+      [&](std::size_t p, const Index<D>& cell) { return pressureEquation<D>(level, flows[p], cell, dt); },
+      [&](std::size_t p, const Index<D>& cell) { return stiffPressureIn(flows[p], cell); },
+      [&](std::size_t p, const Index<D>& row, int count, const solvers::BoxRow<D>& to) {
+        fillPressureEquations<D>(flows[p], row, count, dt, to);
       });
 }
 

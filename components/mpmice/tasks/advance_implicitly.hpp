@@ -33,8 +33,8 @@ double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& nea
                        const std::optional<CellView<Vec<D>>>& flow) {
   Box faces = block;
   ++faces.upper[Axis];
-  const double most =
-      step.computeFluxes(faces, Axis, [&](const Index<D>& face) { return exchange.openShareOf(near, face, Axis); });
+  const auto open = [&](const Index<D>& face) { return exchange.openShareOf(near, face, Axis); };
+  const double most = near.anyIn(faces) ? step.computeFluxes(faces, Axis, open) : step.computeFluxes(faces, Axis);
   const double ratio = dt / level.spacing(Axis);
   euler::addFluxes<D, Axis>(ratio, block, cells.held, step.flux(), fresh.held);
   fresh.rims.masses.keep(block, Axis, step.flux());
