@@ -1,5 +1,7 @@
 #include "components/ice/start.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +18,7 @@ constexpr double surroundings = 300;  ///< temperature of the surroundings [K], 
 const Schema<VortexList>& vorticesSchema() {
   static const Schema<Vortex> vortex =
       Schema<Vortex>("vortex", "A vortex.")
+          .location(&Vortex::where)
           .requiredChoice("axis", &Vortex::axis, {{"X", 0}, {"Y", 1}, {"Z", 2}, {"x", 0}, {"y", 1}, {"z", 2}},
                           "axis of rotation")
           .required("origin", &Vortex::origin, "m", "a point on the axis")
@@ -85,15 +88,39 @@ void setTaylorGreen(double angle, const Vec3& x, Vec3& velocity) {
   velocity[2] = size * std::sin(angle) * std::cos(x[0]) * std::cos(x[1]) * std::sin(x[2]);
 }
 
+/// The temperature [K] at which a gas has a pressure [Pa].
+double temperatureAt(const StartPlace& place, double pressure) {
+  const euler::Gas& gas = place.gas;
+  if (!gas.law) return (pressure + gas.pInfinity) / (place.density * gas.gasConstant());
+  return gas.temperature(place.density, gas.energyOf(place.density, pressure));
+}
+
 }  // namespace
 
-std::string CustomStart::problem(std::size_t gases) const {
+std::string CustomStart::problem(std::size_t gases, const euler::Gas& gas) const {
   const int flows = (vortices ? 1 : 0) + (counterflow ? 1 : 0) + (manufactured ? 1 : 0);
   if (flows > 1)
     return "give only one of vortices, counterflow and manufacturedSolution, since each defines the velocity";
   if (gases > 1 && manufactured && manufactured->type == windOfVortices)
     return "manufacturedSolution mms_1 is not available with several gases: its temperature is that of one gas";
+  if (gas.isBarotropic() && manufactured && manufactured->type == windOfVortices)
+    return "manufacturedSolution mms_1 is not available with JWLC or Murnaghan, whose pressure does not depend on the "
+           "temperature";
   return "";
+}
+
+void CustomStart::refuseFlatVortices(const Level& level) const {
+  if (!vortices) return;
+  std::vector<InputProblem> problems;
+  for (const Vortex& vortex : vortices->list)
+    for (int axis = 0; axis < 3; ++axis)
+      if (axis != vortex.axis && level.domain().resolution[axis] <= 1)
+        problems.push_back(
+            {vortex.where, "CFD/ICE/customInitialization/vortices/vortex",
+             fmt::format("axis: a vortex about {0} moves the gas along {1}, along which the grid has one "
+                         "cell: give it more cells along {1}, or another axis",
+                         "xyz"[vortex.axis], "xyz"[axis])});
+  if (!problems.empty()) throw InputError(problems);
 }
 
 void CustomStart::apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const {
@@ -105,7 +132,7 @@ void CustomStart::apply(const Vec3& point, const StartPlace& place, Vec3& veloci
   }
   if (manufactured && manufactured->type == windOfVortices) {
     setWindOfVortices(manufactured->amplitude, point, velocity);
-    temperatureThere = pressureOfWind(manufactured->amplitude, point) / (place.density * place.gasConstant);
+    temperatureThere = temperatureAt(place, pressureOfWind(manufactured->amplitude, point));
   } else if (manufactured) {
     setTaylorGreen(manufactured->angle, point, velocity);
   }
