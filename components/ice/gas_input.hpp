@@ -14,7 +14,6 @@
 #include "components/ice/mixture/pressure_burn.hpp"
 #include "components/ice/mixture/programmed_burn.hpp"
 #include "components/ice/scalar.hpp"
-#include "components/ice/start.hpp"
 #include "components/ice/tracers/tracers.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
@@ -62,7 +61,6 @@ struct GasScene {
   std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell block the gas
   std::optional<Exchange> exchange = {};  ///< momentum and heat exchange with other materials
   std::optional<ImplicitPressure> implicit = {};
-  std::optional<CustomStart> start = {};
   Heating heating = {};
   std::vector<ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
   /// If there are several gases, each of them with its initial state; the first is also in `gas`.
@@ -95,7 +93,7 @@ inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advec
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
 
 /// A check of a scene on a grid: throws InputError if velocities at the start or at sides, gravity or the driving force
-/// have a component along a periodic axis with one cell, or if a vortex moves the gas along an axis with one cell.
+/// have a component along a periodic axis with one cell.
 std::function<void(const Level&)> checkOfAxes(const input::Element& root, const GasScene& scene);
 /// Lets the pressure rise by the weight of the gas, or of several, beyond sides where it continues; for explicit steps.
 void letPressureRise(const GasScene& scene, euler::Settings& gas, std::vector<euler::Settings>& mixture);

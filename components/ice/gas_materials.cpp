@@ -106,7 +106,8 @@ void readMaterial(const GasMaterial& material, const Element& element, bool besi
                                 .pressure = {},
                                 .velocity = body.velocity,
                                 .temperature = body.temperature,
-                                .share = body.share});
+                                .share = body.share,
+                                .points = body.points});
     if (k < tags.size()) noteOtherPressure(body, gas, tags[k], diagnostics);
   }
 }

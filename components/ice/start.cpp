@@ -1,7 +1,5 @@
 #include "components/ice/start.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -107,20 +105,6 @@ std::string CustomStart::problem(std::size_t gases, const euler::Gas& gas) const
     return "manufacturedSolution mms_1 is not available with JWLC or Murnaghan, whose pressure does not depend on the "
            "temperature";
   return "";
-}
-
-void CustomStart::refuseFlatVortices(const Level& level) const {
-  if (!vortices) return;
-  std::vector<InputProblem> problems;
-  for (const Vortex& vortex : vortices->list)
-    for (int axis = 0; axis < 3; ++axis)
-      if (axis != vortex.axis && level.domain().resolution[axis] <= 1)
-        problems.push_back(
-            {vortex.where, "CFD/ICE/customInitialization/vortices/vortex",
-             fmt::format("axis: a vortex about {0} moves the gas along {1}, along which the grid has one "
-                         "cell: give it more cells along {1}, or another axis",
-                         "xyz"[vortex.axis], "xyz"[axis])});
-  if (!problems.empty()) throw InputError(problems);
 }
 
 void CustomStart::apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const {

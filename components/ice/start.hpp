@@ -64,8 +64,6 @@ struct CustomStart {
   /// The reason why this initial state is not available for `gases` gases, the first of which is `gas`; empty if it is
   /// available.
   std::string problem(std::size_t gases, const euler::Gas& gas = {}) const;
-  /// Throws InputError if the grid has one cell along an axis along which a vortex turns the gas.
-  void refuseFlatVortices(const Level& level) const;
   /// Changes the velocity [m/s] and the temperature [K] at a point [m].
   void apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const;
 };

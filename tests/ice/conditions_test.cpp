@@ -200,6 +200,18 @@ TEST(IceConditions, WithoutSidesForThemConstantsDoNothing) {
   EXPECT_EQ(notesOf(withSide(condition("Pressure", "LODI"), lodi)).find("no side has"), std::string::npos);
 }
 
+TEST(IceConditions, AVortexMovesNothingAlongAnAxisWithOneCell) {
+  const auto vortex = [](const std::string& axis) {
+    return notesOf(changedScene(shear, "<advection type=\"SecondOrder\"/>",
+                                "<advection type=\"SecondOrder\"/><customInitialization><vortices><vortex><axis>" +
+                                    axis +
+                                    "</axis><origin>[0,0,0]</origin><strength>1</strength><radius>1</radius></vortex>"
+                                    "</vortices></customInitialization>"));
+  };
+  EXPECT_NE(vortex("X").find("does nothing along z, along which the grid has one cell"), std::string::npos);
+  EXPECT_EQ(vortex("Z").find("does nothing along z"), std::string::npos);
+}
+
 TEST(IceConditions, AllowTensionInAStiffenedGas) {
   const std::string water = "<EOS type=\"stiffened_gas\"><p_infinity>2</p_infinity></EOS>";
   const auto stiff = [&](const std::string& scene) { return changedScene(scene, "<EOS type=\"ideal_gas\"/>", water); };

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "tests/euler/gas_box.hpp"
-
 namespace tushar::ice {
 namespace {
 
@@ -79,15 +77,6 @@ TEST(CustomStart, OfAWindHasItsPressureInAnyGas) {
     const double pressure = gas.pressureOf(1.2, gas.lastAt(1.2, temperature));
     EXPECT_NEAR(pressure, 101325 - (std::cos(.6) + std::cos(1.4)), 1e-8);
   }
-}
-
-TEST(CustomStart, AVortexNeedsCellsAlongTheAxesAlongWhichItTurnsTheGas) {
-  CustomStart start;
-  start.vortices = VortexList{{{0, {0, 0, .5}, 1, 1}}};
-  EXPECT_THROW(start.refuseFlatVortices(Grid(euler::closedBox(2, 4)).level()), InputError);
-  EXPECT_NO_THROW(start.refuseFlatVortices(Grid(euler::closedBox(3, 4)).level()));
-  start.vortices->list.front().axis = 2;
-  EXPECT_NO_THROW(start.refuseFlatVortices(Grid(euler::closedBox(2, 4)).level()));
 }
 
 TEST(CustomStart, OfTaylorsAndGreensVortexHasNoDivergence) {
