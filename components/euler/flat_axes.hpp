@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/euler/settings.hpp"
+#include "core/core.hpp"
 #include "core/input/expression.hpp"
 
 namespace tushar::input {
