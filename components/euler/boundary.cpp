@@ -47,6 +47,15 @@ Relaxation relaxationAt(const Place& place, const Gas& gas) {
           .outwards = place.side == 0 ? -1 : 1};
 }
 
+/// The rise of a pressure that continues beyond a side.
+template <int D>
+Rise riseAt(const Place& place, const Gas& gas) {
+  if (gas.gravity.isZero(0) && gas.push.isZero(0)) return {};
+  const double outwards = (place.side == 0 ? -1 : 1) * place.level.spacing(place.axis);
+  return {.byWeight = outwards * place.level.template reduce<D>(gas.gravity)[place.axis],
+          .byForce = outwards * place.level.template reduce<D>(gas.push)[place.axis]};
+}
+
 template <int D>
 GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
   GhostRule<D> rule;
@@ -59,6 +68,8 @@ GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
     rule.factor[kVelocity(place.axis)] = -1;
     return rule;
   }
+  rule.rises = riseAt<D>(place, gas);
+  if (rule.rises.acts()) rule.gas = &gas;
   const auto prescribe = [&](std::size_t k, double value) {
     rule.factor[k] = 0;
     rule.value[k] = value;
@@ -197,7 +208,10 @@ std::optional<double> pressureAt(const Place& place, const Gas& gas) {
     if (!condition || !condition->isDirichlet()) continue;
     const double given = condition->at(place.x, place.time);
     if (gas.weight.isZero(0) || condition->formula) return given;
-    return given + gas.weight.dot(place.x - firstCentre(place.level));
+    Vec3 weight = gas.weight;
+    for (int axis = 0; axis < 3; ++axis)
+      if (place.level.domain().periodic[axis] != 0) weight[axis] = 0;
+    return given + weight.dot(place.x - firstCentre(place.level));
   }
   return {};
 }

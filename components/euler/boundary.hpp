@@ -18,12 +18,13 @@ namespace tushar::euler {
 /// M) h / L. Sources: T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; for K, D. H. Rudy & J. C. Strikwerda,
 /// J. Comput. Phys. 36 (1980) 55.
 struct Relaxation {
-  double farPressure = 0;  ///< far-field pressure [Pa]; 0: none
+  double farPressure = 0;  ///< far-field pressure [Pa]
   double sigma = 0;
   double thickness = 0;  ///< ratio h / L
-  int axis = 0, outwards = 0;
+  int axis = 0;
+  int outwards = 0;  ///< 1 or -1: the direction of n along the axis; 0: the side does not relax
 
-  bool acts() const { return farPressure > 0; }
+  bool acts() const { return outwards != 0; }
   /// The decrease [Pa] of the incoming characteristic at a side while sound crosses `crossings` cells. `speed` is the
   /// outward velocity u_n [m/s].
   double loss(double pressure, double speed, double sound, double crossings = 1) const {
@@ -31,6 +32,16 @@ struct Relaxation {
     const double share = sigma * thickness * std::max(1 + mach, crossings * (1 - mach * mach));
     return mach < 1 ? (pressure - farPressure) * std::min(share, 1.0) : 0.0;
   }
+};
+
+/// The rise of the pressure from one cell to the next outwards, by gravity g and a force per volume f: rho g_n h + f_n
+/// h.
+struct Rise {
+  double byWeight = 0;  ///< g_n h [m²/s²]
+  double byForce = 0;   ///< f_n h [Pa]
+
+  bool acts() const { return byWeight != 0 || byForce != 0; }
+  double at(double density) const { return density * byWeight + byForce; }
 };
 
 /// The state beyond a side of the grid: W = factor * W_inside + value, where W_inside is that of the mirrored or of the
@@ -45,11 +56,12 @@ struct GhostRule {
   bool keepsTemperature = false;  ///< whether the temperature continues instead of rho, beyond a prescribed pressure
   const Gas* gas = nullptr;       ///< the only gas, if the rule depends on its law
   Relaxation relaxes = {};        ///< relaxation at a side that lets waves out
+  Rise rises = {};                ///< rise of a pressure that continues beyond the side
   Mixture<kMostGases> laws;       ///< laws of several gases, used by the relaxation
 
   /// Whether each component of the state beyond is a factor times that inside, plus a value.
   bool isLinear() const {
-    return !(densityOfPressure > 0) && !(temperature > 0) && !keepsTemperature && !relaxes.acts();
+    return !(densityOfPressure > 0) && !(temperature > 0) && !keepsTemperature && !relaxes.acts() && !rises.acts();
   }
 };
 
@@ -85,7 +97,8 @@ std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel
 }
 /// The pressure that a scene prescribes at a place, if any. All materials share it, because Uintah's scenes give it for
 /// material 0. If the gas has a weight, it is hydrostatic: a value, but not a formula, is that at the centre of the
-/// first cell of the coarsest level, and at x the pressure is higher by the weight times (x - centre).
+/// first cell of the coarsest level, and at x the pressure is higher by the weight times (x - centre). Along periodic
+/// axes, it does not rise.
 std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
 /// Whether a place is a wall: it has the condition Symmetric, or only a Velocity that is tangential to the side.
@@ -94,9 +107,10 @@ bool isWall(const Place& place, const Gas& gas);
 
 /// The rules that follow from the scene's conditions. A wall mirrors the gas. At a side with Density, Velocity or
 /// Pressure, gas with these values flows in; a Temperature given with one of density and pressure determines the other.
-/// Quantities that are not given continue without gradient, so a side without conditions is an outflow. Of density and
-/// temperature, the density continues beside a given pressure, except if the scene asks for a Temperature without
-/// gradient; several gases keep their densities.
+/// Quantities that are not given continue without gradient, so a side without conditions is an outflow; but the
+/// pressure rises there by the weight of the gas, so that gas at rest stays at rest. Of density and temperature, the
+/// density continues beside a given pressure, except if the scene asks for a Temperature without gradient; several
+/// gases keep their densities.
 ///
 /// Formulas are evaluated at `time` [s] in the centre of each cell beyond the side, and their results are used like
 /// values. Throws NumericalError if a formula gives an impossible density or p + p_inf.

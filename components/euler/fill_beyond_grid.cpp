@@ -42,17 +42,35 @@ double soundSpeedSquaredIn(const GhostRule<D>& rule, const std::array<double, N>
   }
 }
 
+/// The largest fall of the pressure beyond a side, in parts of rho c²: on cells in which the pressure of a gas at rest
+/// halves, it remains positive.
+constexpr double greatestFall = 0.25;
+
+/// Raises the pressure of a state. If it depends on the density alone, the temperature stays.
+template <int D, std::size_t N>
+void raise(const GhostRule<D>& rule, double rise, std::array<double, N>& w) {
+  const double density = w[kDensity], squared = soundSpeedSquaredIn<D>(rule, w);
+  const double limited = std::max(rise, -greatestFall * density * squared);
+  if (kGasesIn<D, N> == 1 && rule.gas->isBarotropic()) {
+    w[kDensity] += limited / squared;
+    w[kPressure<D>] *= w[kDensity] / density;
+  } else {
+    w[kPressure<D>] += limited;
+  }
+}
+
 /// Weakens the incoming wave in a state, at constant entropy, to let waves out; the wave decays over `cells` cells. It
 /// compresses all gases of a cell by the same factor. If the pressure depends on the density alone, the temperature
-/// stays, so the last component, rho c_v T, changes like the density.
+/// stays, so the last component, rho c_v T, changes like the density. `rise` is the rise of the pressure at rest from
+/// cell to cell [Pa]; the pressure at the side itself relaxes.
 template <int D, std::size_t N>
-void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
+void relax(const GhostRule<D>& rule, int cells, double rise, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;
   double& speed = w[kVelocity(side.axis)];
   constexpr int K = kGasesIn<D, N>;
   const double squared = soundSpeedSquaredIn<D>(rule, w), sound = std::sqrt(squared);
   const double pressure = K == 1 ? rule.gas->pressureOf(w[kDensity], w[kPressure<D>]) : w[kPressure<D>];
-  const double half = 0.5 * cells * side.loss(pressure, side.outwards * speed, sound);
+  const double half = 0.5 * cells * side.loss(pressure - (cells - 0.5) * rise, side.outwards * speed, sound);
   speed += side.outwards * half / (w[kDensity] * sound);
   if constexpr (K > 1)
     for (int k = 0; k < K; ++k) w[kMass<D>(k)] -= w[kMass<D>(k)] / w[kDensity] * (half / squared);
@@ -75,6 +93,9 @@ template <int D, std::size_t N>
 std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array<double, N> w) {
   const double density = w[kDensity], last = w[kPressure<D>];
   for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
+  const bool rises = rule.rises.acts() && rule.factor[kPressure<D>] == 1;
+  const double rise = rises ? rule.rises.at(0.5 * (density + w[kDensity])) : 0;
+  if (rises) raise<D>(rule, cells * rise, w);
   if (rule.densityOfPressure > 0) w[kDensity] = rule.densityOfPressure * (w[kPressure<D>] + rule.pInfinity);
   if (rule.temperature > 0 && rule.gas->isBarotropic())
     w[kPressure<D>] = rule.gas->lastAt(w[kDensity], rule.temperature);
@@ -82,7 +103,7 @@ std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array
     w[kDensity] = rule.gas->densityAt(w[kPressure<D>], rule.temperature);
   if (kGasesIn<D, N> == 1 && rule.keepsTemperature)
     w[kDensity] = densityAtSameHeat(*rule.gas, density, last, w[kPressure<D>]);
-  if (rule.relaxes.acts()) relax<D>(rule, cells, w);
+  if (rule.relaxes.acts()) relax<D>(rule, cells, rise, w);
   return w;
 }
 

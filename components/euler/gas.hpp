@@ -72,6 +72,10 @@ struct Gas {
   std::shared_ptr<const Law> law = nullptr;  ///< the gas's own law; null for a stiffened gas
   /// Weight per volume of the gas around [N/m³], by which the pressures that sides prescribe rise; see pressureAt.
   Vec3 weight = Vec3::Zero();
+  /// Gravity [m/s²] and a force per volume [N/m³], under which the pressure rises beyond sides where it continues; 0
+  /// with implicit steps, which find the pressure at such sides themselves.
+  Vec3 gravity = Vec3::Zero(), push = Vec3::Zero();
+  bool sticks = false;  ///< whether it is viscous, so that it has the velocity of a wall at the wall
 
   /// Calls `use` with the gas as a StiffenedGas, or with its own law, so that loops branch on the law only once, before
   /// they start.

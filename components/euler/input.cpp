@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "components/euler/euler.hpp"
+#include "components/euler/flat_axes.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::euler {
@@ -120,6 +121,7 @@ simulation::ComponentKind kind() {
     const std::size_t before = diagnostics.size();
     const EulerSection read = simulation::readSection(root, schema(), diagnostics);
     checkBoundaries(root, read.gas.pInfinity, diagnostics);
+    simulation::refuseOtherMaterials(root, 1, diagnostics);
     if (diagnostics.size() > before) return {};
     Settings settings;
     settings.where = root.child("Euler")->where();
@@ -127,7 +129,12 @@ simulation::ComponentKind kind() {
     settings.courant.number = read.cfl;
     settings.gas = {read.gas.gamma, read.gas.pInfinity};
     settings.objects = read.objects;
-    return [settings](const Level& level) { return simulation::makeByDimension<Euler>(level, settings); };
+    std::vector<GivenVector> velocities = velocitiesAtSides(root);
+    for (GivenVector& one : velocitiesAtStart(settings, "Euler/geom_object")) velocities.push_back(std::move(one));
+    return [settings, velocities](const Level& level) {
+      refuseAlongFlatAxes(level, velocities);
+      return simulation::makeByDimension<Euler>(level, settings);
+    };
   };
   return kind;
 }

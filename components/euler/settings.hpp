@@ -23,6 +23,8 @@ struct GasObject {
   input::VectorExpression velocity;                   ///< velocity [m/s]
   std::optional<input::Expression> temperature = {};  ///< temperature [K]
   std::optional<input::Expression> share = {};        ///< volume fraction, if there are several gases; 1 by default
+  /// Number of points of a cell along each axis at which regions of several gases are found.
+  Index3 points = Index3::filled(1);
 };
 
 enum class FluxKind { exact, hllc };

@@ -28,7 +28,8 @@ const Schema<WavesSection>& wavesSchema() {
     Schema<WavesSection> tags(wavesTag,
                               "Constants for sides that let waves leave, where Pressure and Velocity have var LODI.");
     tags.required("press_infinity", &WavesSection::farPressure, "Pa",
-                  "far-field pressure, towards which the pressure of the gas relaxes", input::positive())
+                  "far-field pressure, towards which the pressure of the gas relaxes; positive, or above -p_infinity "
+                  "of a stiffened gas")
         .value("sigma", &WavesSection::sigma, 0.27, "1",
                "the pressure relaxes at the rate sigma (1 - M^2) c / L, where L is the length of the grid",
                input::nonNegative())

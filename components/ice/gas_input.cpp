@@ -7,6 +7,7 @@
 #include <set>
 
 #include "components/euler/labels.hpp"
+#include "components/ice/check_conditions.hpp"
 #include "components/ice/gas_materials.hpp"
 #include "components/ice/gas_schemas.hpp"
 #include "components/ice/heating_input.hpp"
@@ -21,80 +22,6 @@ using input::Element;
 namespace {
 
 constexpr const char* solverTag = "Solver";
-
-/// Reports conditions of the gas that are not available: invalid values, and derivatives other than 0.
-void checkCondition(const Element& condition, Diagnostics& diagnostics) {
-  const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
-  const auto text = condition.child("value");
-  if (!text) return;
-  const auto number = input::parse<double>(text->text());
-  const auto vector = input::parse<Vec3>(text->text());
-  if (var == nameOf(BoundaryKind::neumann)) {
-    if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
-      diagnostics.error(*text,
-                        fmt::format("found '{}', expected 0: a Neumann condition extends {} unchanged beyond the grid",
-                                    text->text(), label));
-    return;
-  }
-  const auto limit = [&](const grid::BoundaryVariable& of, const std::string& unit) {
-    if (label == of.name && var == nameOf(BoundaryKind::dirichlet) && number &&
-        !input::satisfies(*number, input::positive()))
-      diagnostics.error(*text, input::violation(text->text(), input::positive(), unit));
-  };
-  limit(euler::boundary::density, "kg/m^3");
-  limit(euler::boundary::pressure, "Pa");
-  limit(euler::boundary::temperature, "K");
-}
-
-/// Checks the conditions of the gas, which is material number `gas` of the scene, and of the gases that follow it.
-void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagnostics) {
-  for (const Element& condition : simulation::boundaryConditions(root)) {
-    const int material = materialOf(condition);
-    if (material >= gas + gases)
-      diagnostics.error(condition.whereOf("id"), condition.path(),
-                        gases == 1 ? fmt::format("there is no material {}: the gas has index {}", material, gas)
-                                   : fmt::format("there is no material {}: the gases have indices {} to {}", material,
-                                                 gas, gas + gases - 1));
-    if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
-      diagnostics.note(condition,
-                       fmt::format("does nothing: material {} is a body; the gas has index {}", material, gas));
-    const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
-    if (material < 0 || material >= gas || isShared) checkCondition(condition, diagnostics);
-  }
-}
-
-/// Reports a condition that is incompatible with another condition of the same face. `slips`: the face is a wall that
-/// slips; `relaxes`: it lets waves out.
-void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics& diagnostics) {
-  const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
-  const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
-  const bool isWall = var == "FreeSlipWall" || var == nameOf(BoundaryKind::symmetry);
-  const bool acts = isGiven || isWall || var == "Sine";
-  if (slips && !isWall && (acts || var == "LODI"))
-    diagnostics.error(condition, "a FreeSlipWall is a plane of symmetry, so it takes no other condition");
-  if (relaxes && !slips && acts && !(isGiven && label == euler::boundary::temperature.name))
-    diagnostics.error(condition, "with var LODI for the Pressure, only a Temperature may be given as well");
-}
-
-/// Reports conditions of faces that contradict one another, or that require another condition.
-void checkWords(const Element& root, Diagnostics& diagnostics) {
-  const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
-  for (const Element& face : group ? group->children("Face") : std::vector<Element>()) {
-    const auto has = [&](const char* var, const std::string_view label) {
-      const auto conditions = face.children("BCType");
-      return std::any_of(conditions.begin(), conditions.end(), [&](const Element& one) {
-        return one.attribute("var") == var && (label.empty() || one.attribute("label") == label);
-      });
-    };
-    const bool slips = has("FreeSlipWall", ""), relaxes = has("LODI", euler::boundary::pressure.name);
-    if (!relaxes && has("LODI", ""))
-      diagnostics.error(face, "var LODI for another variable needs var LODI for the Pressure");
-    if (has("Sine", euler::boundary::temperature.name) && !has("Sine", euler::boundary::pressure.name) &&
-        !has("Sine", euler::boundary::velocity.name))
-      diagnostics.error(face, "var Sine for the Temperature needs var Sine for the Pressure or the Velocity");
-    for (const Element& condition : face.children("BCType")) checkBeside(condition, slips, relaxes, diagnostics);
-  }
-}
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
@@ -191,15 +118,38 @@ Vec3 cornerOf(const Element& root, const char* name) { return ofLevel(root, name
 /// Half the size of the Box of the first Level [m]: the centre of Uintah's <counterflow>.
 Vec3 middleOf(const Element& root) { return 0.5 * (cornerOf(root, "upper") - cornerOf(root, "lower")); }
 
+/// The number of cells of the first Level along each axis, as given by the scene.
+Vec3 cellsOf(const Element& root) {
+  if (const auto cells = ofLevel(root, "resolution")) return *cells;
+  const auto spacing = ofLevel(root, "spacing");
+  return spacing ? Vec3((cornerOf(root, "upper") - cornerOf(root, "lower")).cwiseQuotient(*spacing)) : Vec3::Zero();
+}
+
+/// Notes what is lost of vortices that move the gas along an axis with one cell.
+void noteFlatVortices(const CustomStart& start, const Element& root, Diagnostics& diagnostics) {
+  if (!start.vortices) return;
+  const Vec3 cells = cellsOf(root);
+  for (const Vortex& vortex : start.vortices->list)
+    for (int axis = 0; axis < 3; ++axis)
+      if (axis != vortex.axis && cells[axis] > 0 && cells[axis] < 1.5)
+        diagnostics.note(
+            vortex.where, "CFD/ICE/customInitialization/vortices/vortex",
+            fmt::format("does nothing along {1}, along which the grid has one cell, although a vortex about "
+                        "{0} moves the gas along it",
+                        "xyz"[vortex.axis], "xyz"[axis]));
+}
+
 /// Applies the velocity and the temperature of <customInitialization> to the initial gas.
 void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& materials, const Element& root,
                      GasScene& scene, Diagnostics& diagnostics) {
-  if (const std::string problem = start.problem(scene.binary ? 2 : materials.size()); !problem.empty())
+  noteFlatVortices(start, root, diagnostics);
+  euler::Gas gas;
+  takeLaw(materials.front(), gas);
+  if (const std::string problem = start.problem(scene.binary ? 2 : materials.size(), gas); !problem.empty())
     diagnostics.error(*root.child("CFD")->child("ICE")->child("customInitialization"), problem);
-  const double gasConstant = (materials.front().gamma - 1) * materials.front().specificHeat;
-  scene.gas.disturb = [start, gasConstant, middle = middleOf(root)](const Vec3& point, double rho, Vec3& velocity,
-                                                                    double& temperature) {
-    start.apply(point, {rho, gasConstant, middle}, velocity, temperature);
+  scene.gas.disturb = [start, gas, middle = middleOf(root)](const Vec3& point, double rho, Vec3& velocity,
+                                                            double& temperature) {
+    start.apply(point, {rho, gas, middle}, velocity, temperature);
   };
 }
 
@@ -231,7 +181,40 @@ void takeWeight(const IceSection& ice, const std::vector<GasMaterial>& materials
   for (euler::Settings& one : scene.mixture) one.gas.weight = scene.gas.gas.weight;
 }
 
+/// Settles whether gases stick to walls: whether one of them is viscous.
+void settleSticking(GasScene& scene) {
+  const auto isViscous = [](const euler::Diffusion& one) { return one.viscosity > 0; };
+  scene.gas.gas.sticks = scene.viscosity > 0 || scene.varying.varies() ||
+                         std::any_of(scene.diffusions.begin(), scene.diffusions.end(), isViscous);
+  for (euler::Settings& one : scene.mixture) one.gas.sticks = scene.gas.gas.sticks;
+}
+
 }  // namespace
+
+std::function<void(const Level&)> checkOfAxes(const Element& root, const GasScene& scene) {
+  std::vector<euler::GivenVector> all = euler::velocitiesAtSides(root);
+  const auto addStart = [&](const euler::Settings& gas) {
+    for (euler::GivenVector& one : euler::velocitiesAtStart(gas, "MaterialProperties/ICE/material/geom_object"))
+      all.push_back(std::move(one));
+  };
+  addStart(scene.gas);
+  for (const euler::Settings& gas : scene.mixture) addStart(gas);
+  const auto constants = root.child("PhysicalConstants");
+  if (const auto gravity = constants ? constants->child("gravity") : std::nullopt)
+    all.push_back({gravity->where(), gravity->path(), input::VectorExpression(scene.gravity)});
+  if (const auto push = root.child("CFD")->child("ICE")->child("fixedPressureGradient"))
+    all.push_back({push->where(), push->path(), input::VectorExpression(scene.push)});
+  return [all](const Level& level) { euler::refuseAlongFlatAxes(level, all); };
+}
+
+void letPressureRise(const GasScene& scene, euler::Settings& gas, std::vector<euler::Settings>& mixture) {
+  const auto take = [&](euler::Gas& one) {
+    one.gravity = scene.gravity;
+    one.push = scene.push;
+  };
+  take(gas.gas);
+  for (euler::Settings& one : mixture) take(one.gas);
+}
 
 GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
@@ -239,9 +222,8 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   const ConstantsSection constants = simulation::readOptionalSection(root, constantsSchema(), diagnostics);
   const PropertiesSection properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   ModelsSection models = simulation::readOptionalSection(root, modelsSchema(), diagnostics);
-  checkWords(root, diagnostics);
   const auto& materials = properties.ice.materials;
-  checkConditions(root, solids, static_cast<int>(std::max<std::size_t>(materials.size(), 1)), diagnostics);
+  checkConditions(root, solids, properties.ice.materials, models.scalars, models.binary.has_value(), diagnostics);
   GasScene scene;
   if (diagnostics.size() > before) return scene;
   scene.where = root.child("CFD")->where();
@@ -269,6 +251,8 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
   readMaterials(materials, root, solids, scene, diagnostics);
   if (diagnostics.size() == before) takeWeight(cfd.ice, materials, root, scene, diagnostics);
+  if (!scene.implicit) letPressureRise(scene, scene.gas, scene.mixture);
+  settleSticking(scene);
   if (scene.tracers && diagnostics.size() == before) checkTracers(scene, solids, diagnostics);
   return scene;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <vector>
 
+#include "components/euler/flat_axes.hpp"
 #include "components/euler/settings.hpp"
 #include "components/euler/varying_diffusion.hpp"
 #include "components/ice/burn_model.hpp"
@@ -89,6 +91,12 @@ inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advec
 /// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> (apart from its section MPM), and the boundary conditions of
 /// the grid. In the scene, the `solids` materials of MPM come before the gas. Reports every problem to the diagnostics.
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
+
+/// A check of a scene on a grid: throws InputError if velocities at the start or at sides, gravity or the driving force
+/// have a component along a periodic axis with one cell.
+std::function<void(const Level&)> checkOfAxes(const input::Element& root, const GasScene& scene);
+/// Lets the pressure rise by the weight of the gas, or of several, beyond sides where it continues; for explicit steps.
+void letPressureRise(const GasScene& scene, euler::Settings& gas, std::vector<euler::Settings>& mixture);
 
 /// The forms of the sections that readGas reads or accepts, for a component without further sections.
 std::vector<simulation::SectionForm> gasForms();

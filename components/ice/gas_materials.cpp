@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/euler/blend.hpp"
 #include "components/euler/labels.hpp"
@@ -94,10 +95,7 @@ void readMaterial(const GasMaterial& material, const Element& element, bool besi
     diagnostics.error(*element.child("gamma"),
                       input::violation(element.child("gamma")->text(), input::greaterThan(1), "1"));
   euler::Gas& gas = settings.gas;
-  gas.gamma = material.gamma;
-  gas.specificHeat = material.specificHeat;
-  gas.pInfinity = material.state.pInfinity;
-  gas.law = material.law();
+  takeLaw(material, gas);
   const auto tags = element.children("geom_object");
   for (std::size_t k = 0; k < material.bodies.size(); ++k) {
     const GasBody& body = material.bodies[k];
@@ -108,7 +106,8 @@ void readMaterial(const GasMaterial& material, const Element& element, bool besi
                                 .pressure = {},
                                 .velocity = body.velocity,
                                 .temperature = body.temperature,
-                                .share = body.share});
+                                .share = body.share,
+                                .points = body.points});
     if (k < tags.size()) noteOtherPressure(body, gas, tags[k], diagnostics);
   }
 }
@@ -177,6 +176,35 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
   checkMixture(materials, root, scene, scene.gas.gas.material, diagnostics);
 }
 
+/// Notes the properties of a gas that have no effect because it is a mixture of two, except those that agree with the
+/// first of the two, which fills the space outside the regions of the other.
+void noteOwnProperties(const GasMaterial& material, const Element& element, const BinaryGas& first,
+                       Diagnostics& diagnostics) {
+  const auto note = [&](const Element& of, const char* tag, double value, double ofFirst) {
+    const auto given = of.child(tag);
+    if (given && std::abs(value - ofFirst) > 1e-3 * std::abs(ofFirst))
+      diagnostics.note(*given, "does nothing: it follows from the <constants> of BinaryProperties");
+  };
+  note(element, "gamma", material.gamma, 1 + first.gasConstant / first.specificHeat);
+  note(element, "specific_heat", material.specificHeat, first.specificHeat);
+  note(element, "dynamic_viscosity", material.viscosity, first.viscosity);
+  note(element, "thermal_conductivity", material.conductivity, first.conductivity);
+  const auto tags = element.children("geom_object");
+  for (std::size_t k = 0; k < material.bodies.size() && k < tags.size(); ++k) {
+    const input::Expression& density = material.bodies[k].density;
+    const double never = std::numeric_limits<double>::infinity();  // a formula agrees with no number
+    note(tags[k], "density", density.isConstant() ? density(Vec3::Zero()) : never, first.density);
+  }
+}
+
+/// A gas with the properties of the first of the two gases of which it is a mixture.
+GasMaterial firstOf(GasMaterial material, const BinaryGas& first) {
+  material.gamma = 1 + first.gasConstant / first.specificHeat;
+  material.specificHeat = first.specificHeat;
+  for (GasBody& body : material.bodies) body.density = input::Expression(first.density);
+  return material;
+}
+
 /// Reads a gas of the scene that is a mixture of two.
 void readBinary(const GasMaterial& material, const Element& root, GasScene& scene, Diagnostics& diagnostics) {
   const Element element = *root.child("MaterialProperties")->child("ICE")->child("material");
@@ -189,7 +217,8 @@ void readBinary(const GasMaterial& material, const Element& root, GasScene& scen
     diagnostics.error(*element.child("EOS"), "with BinaryProperties the gas is of type ideal_gas");
   euler::Settings common = scene.gas;
   common.where = element.where();
-  readMaterial(material, element, false, common, diagnostics);
+  noteOwnProperties(material, element, binary.a, diagnostics);
+  readMaterial(firstOf(material, binary.a), element, false, common, diagnostics);
   checkShares(material, false, diagnostics);
   scene.gas.name = material.name;
   scene.mixture = binary.gases(common);
@@ -224,6 +253,13 @@ std::shared_ptr<const euler::Gas::Law> GasMaterial::law() const {
 
 int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
+}
+
+void takeLaw(const GasMaterial& material, euler::Gas& gas) {
+  gas.gamma = material.gamma;
+  gas.specificHeat = material.specificHeat;
+  gas.pInfinity = material.state.pInfinity;
+  gas.law = material.law();
 }
 
 void readMaterials(const std::vector<GasMaterial>& materials, const Element& root, int solids, GasScene& scene,

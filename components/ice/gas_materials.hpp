@@ -10,6 +10,9 @@ namespace tushar::ice {
 /// is reported when the grid is read.
 int materialOf(const input::Element& condition);
 
+/// Gives a gas the law of a material of the scene.
+void takeLaw(const GasMaterial& material, euler::Gas& gas);
+
 /// Reads the materials into a scene whose other settings are known: one gas, a mixture of two gases, or several gases.
 /// In the scene, `solids` bodies come before them.
 void readMaterials(const std::vector<GasMaterial>& materials, const input::Element& root, int solids, GasScene& scene,

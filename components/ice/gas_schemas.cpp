@@ -186,7 +186,12 @@ const Schema<GasBody>& bodySchema() {
                   "volume fraction of the gas, if several gases share the region; a single gas fills it",
                   input::between(0, 1), input::WithoutTime())
         .optional("pressure", &GasBody::pressure, "Pa", "has no effect: it follows from density and temperature")
-        .ignored("res", "a cell has the gas at its centre")
+        .value(
+            "res", &GasBody::points, Index3::filled(1), "1",
+            "with several gases, the number of points of a cell along each axis at which regions are found: a cell "
+            "that a surface cuts has a share of each gas; the most of all regions counts. A single gas is that at the "
+            "centre",
+            input::atLeast(1))
         .ignoredAttribute("name", "a note for readers");
     return tags;
   }();

@@ -88,6 +88,7 @@ struct GasBody {
   /// Pressure [Pa]; ignored, because it follows from density and temperature.
   std::optional<input::Expression> pressure;
   std::optional<input::Expression> share;  ///< volume fraction
+  Index3 points = Index3::filled(1);       ///< points of a cell at which regions of several gases are found
 };
 
 /// `MaterialProperties/ICE/material/SpecificHeatModel`: the c_v of air, which depends on the temperature.

@@ -193,6 +193,14 @@ int cellsOfBlocks(const input::Element& root) {
   return isBinary || (gases && gases->children("material").size() > 1) ? 6 : 4;
 }
 
+std::unique_ptr<Component> makeComponent(const Level& level, const GasScene& scene) {
+  if (!scene.mixture.empty() && scene.implicit) return simulation::makeByDimension<ImplicitMixtureIce>(level, scene);
+  if (!scene.mixture.empty())
+    return simulation::makeByDimension<MixtureIce>(level, scene, level.domain().refinement.levels > 1);
+  return scene.implicit ? simulation::makeByDimension<ImplicitIce>(level, scene)
+                        : simulation::makeByDimension<Ice>(level, scene);
+}
+
 }  // namespace
 
 simulation::ComponentKind kind() {
@@ -219,15 +227,9 @@ simulation::ComponentKind kind() {
     if (scene.exchange && scene.mixture.empty())
       diagnostics.note(scene.exchange->where, exchangePath, "does nothing: there is one material");
     if (diagnostics.size() > before) return {};
-    if (!scene.mixture.empty() && scene.implicit)
-      return [scene](const Level& level) { return simulation::makeByDimension<ImplicitMixtureIce>(level, scene); };
-    if (!scene.mixture.empty())
-      return [scene](const Level& level) {
-        return simulation::makeByDimension<MixtureIce>(level, scene, level.domain().refinement.levels > 1);
-      };
-    return [scene](const Level& level) {
-      return scene.implicit ? simulation::makeByDimension<ImplicitIce>(level, scene)
-                            : simulation::makeByDimension<Ice>(level, scene);
+    return [scene, check = checkOfAxes(root, scene)](const Level& level) {
+      check(level);
+      return makeComponent(level, scene);
     };
   };
   return kind;

@@ -48,7 +48,8 @@ class CarriedScalar {
                "c.held-scalar-" + settings_.name,
                "totalSum_scalar-" + settings_.name,
                "c.unshared-scalar-" + settings_.name,
-               "c.scalar-" + settings_.name + "_expDecayCoef"} {}
+               "c.scalar-" + settings_.name + "_expDecayCoef",
+               "scalar-" + settings_.name + "_CC"} {}
   CarriedScalar(const CarriedScalar&) = delete;
   CarriedScalar& operator=(const CarriedScalar&) = delete;
 
@@ -60,8 +61,8 @@ class CarriedScalar {
   const ReductionLabel<Sum>& total() const { return total_; }
   /// The coefficient c2 of the decay.
   const CellLabel<double>& decayCoefficient() const { return decay_coefficient_; }
-  /// The label for boundary conditions.
-  const BoundaryLabel<double>& atSides() const { return atSides_; }
+  /// The two labels for boundary conditions: the name of the scalar, and that with _CC, as in Uintah.
+  const std::array<BoundaryLabel<double>, 2>& atSides() const { return atSides_; }
   /// Adds the names of its variables in Uintah, each with the name in Tushar.
   void addNames(std::vector<std::pair<std::string, std::string>>& names) const {
     names.emplace_back(words_[0], words_[1]);
@@ -77,8 +78,8 @@ class CarriedScalar {
 
  private:
   ScalarSettings settings_;
-  std::array<std::string, 6> words_;
-  BoundaryLabel<double> atSides_{words_[0]};
+  std::array<std::string, 7> words_;
+  std::array<BoundaryLabel<double>, 2> atSides_{BoundaryLabel<double>(words_[0]), BoundaryLabel<double>(words_[6])};
   CellLabel<double> value_{words_[1], "1", "a quantity per mass that is transported with the gas"};
   CellLabel<double> held_{words_[2], "kg/m^3", "the scalar times density"};
   CellLabel<double> unshared_{words_[4], "kg/m^3", "the scalar times density, before small cells are merged"};

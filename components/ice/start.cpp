@@ -16,6 +16,7 @@ constexpr double surroundings = 300;  ///< temperature of the surroundings [K], 
 const Schema<VortexList>& vorticesSchema() {
   static const Schema<Vortex> vortex =
       Schema<Vortex>("vortex", "A vortex.")
+          .location(&Vortex::where)
           .requiredChoice("axis", &Vortex::axis, {{"X", 0}, {"Y", 1}, {"Z", 2}, {"x", 0}, {"y", 1}, {"z", 2}},
                           "axis of rotation")
           .required("origin", &Vortex::origin, "m", "a point on the axis")
@@ -85,14 +86,24 @@ void setTaylorGreen(double angle, const Vec3& x, Vec3& velocity) {
   velocity[2] = size * std::sin(angle) * std::cos(x[0]) * std::cos(x[1]) * std::sin(x[2]);
 }
 
+/// The temperature [K] at which a gas has a pressure [Pa].
+double temperatureAt(const StartPlace& place, double pressure) {
+  const euler::Gas& gas = place.gas;
+  if (!gas.law) return (pressure + gas.pInfinity) / (place.density * gas.gasConstant());
+  return gas.temperature(place.density, gas.energyOf(place.density, pressure));
+}
+
 }  // namespace
 
-std::string CustomStart::problem(std::size_t gases) const {
+std::string CustomStart::problem(std::size_t gases, const euler::Gas& gas) const {
   const int flows = (vortices ? 1 : 0) + (counterflow ? 1 : 0) + (manufactured ? 1 : 0);
   if (flows > 1)
     return "give only one of vortices, counterflow and manufacturedSolution, since each defines the velocity";
   if (gases > 1 && manufactured && manufactured->type == windOfVortices)
     return "manufacturedSolution mms_1 is not available with several gases: its temperature is that of one gas";
+  if (gas.isBarotropic() && manufactured && manufactured->type == windOfVortices)
+    return "manufacturedSolution mms_1 is not available with JWLC or Murnaghan, whose pressure does not depend on the "
+           "temperature";
   return "";
 }
 
@@ -105,7 +116,7 @@ void CustomStart::apply(const Vec3& point, const StartPlace& place, Vec3& veloci
   }
   if (manufactured && manufactured->type == windOfVortices) {
     setWindOfVortices(manufactured->amplitude, point, velocity);
-    temperatureThere = pressureOfWind(manufactured->amplitude, point) / (place.density * place.gasConstant);
+    temperatureThere = temperatureAt(place, pressureOfWind(manufactured->amplitude, point));
   } else if (manufactured) {
     setTaylorGreen(manufactured->angle, point, velocity);
   }

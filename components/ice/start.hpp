@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/vec.hpp"
+#include "components/euler/gas.hpp"
+#include "core/core.hpp"
 #include "core/input/schema.hpp"
 
 // Uintah's customInitialization: an initial state by formulas.
@@ -17,6 +18,7 @@ struct Vortex {
   int axis = 0;
   Vec3 origin = Vec3::Zero();       ///< origin [m]
   double strength = 0, radius = 0;  ///< C; radius [m]
+  Location where = {};              ///< in the scene
 };
 
 struct VortexList {
@@ -48,7 +50,7 @@ struct Manufactured {
 /// The properties of the gas and of the grid on which initial states depend.
 struct StartPlace {
   double density = 0;          ///< density [kg/m³]
-  double gasConstant = 0;      ///< gas constant R [J/(kg K)]
+  euler::Gas gas = {};         ///< its law
   Vec3 middle = Vec3::Zero();  ///< half the lengths of the grid [m]
 };
 
@@ -59,8 +61,9 @@ struct CustomStart {
   std::optional<Counterflow> counterflow;
   std::optional<Manufactured> manufactured;
 
-  /// The reason why this initial state is not available for `gases` gases; empty if it is available.
-  std::string problem(std::size_t gases) const;
+  /// The reason why this initial state is not available for `gases` gases, the first of which is `gas`; empty if it is
+  /// available.
+  std::string problem(std::size_t gases, const euler::Gas& gas = {}) const;
   /// Changes the velocity [m/s] and the temperature [K] at a point [m].
   void apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const;
 };

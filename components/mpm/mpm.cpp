@@ -1,8 +1,10 @@
 #include "components/mpm/mpm.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "components/mpm/boundary_labels.hpp"
+#include "core/simulation/by_dimension.hpp"
 #include "core/simulation/module.hpp"
 
 namespace tushar::mpm {
@@ -33,6 +35,17 @@ Method methodOf(const input::Element& root) {
 
 void define(Method method, MethodKind kind) { entryOf(method) = std::move(kind); }
 
+namespace {
+
+/// The number of materials of a scene; 1 if it has none, which the method reports.
+int countMaterials(const input::Element& root) {
+  const auto properties = root.child("MaterialProperties");
+  const auto mpm = properties ? properties->child("MPM") : std::nullopt;
+  return mpm ? std::max(1, static_cast<int>(mpm->children("material").size())) : 1;
+}
+
+}  // namespace
+
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
   kind.name = "mpm";
@@ -58,6 +71,7 @@ simulation::ComponentKind kind() {
     return nodesBeyond ? nodesBeyond(root) : 0;
   };
   kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
+    simulation::refuseOtherMaterials(root, countMaterials(root), diagnostics);
     return kindOf(methodOf(root)).read(root, diagnostics);
   };
   return kind;

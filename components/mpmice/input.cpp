@@ -10,6 +10,7 @@
 #include "components/mpmice/box_images.hpp"
 #include "components/mpmice/mpmice.hpp"
 #include "components/mpmice/wave_speeds.hpp"
+#include "core/simulation/by_dimension.hpp"
 
 namespace tushar::mpmice {
 
@@ -251,18 +252,15 @@ void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagno
 
 /// Refuses velocities of bodies that oscillate at a side.
 void refuseOscillatingBodies(const Element& root, int solids, Diagnostics& diagnostics) {
-  const auto grid = root.child("Grid");
-  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
-  for (const Element& face : group ? group->children("Face") : std::vector<Element>{})
-    for (const Element& condition : face.children("BCType")) {
-      const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
-      if (condition.attribute("var") != "Sine" || condition.attribute("label") != euler::boundary::velocity.name)
-        continue;
-      if (material < solids)
-        diagnostics.error(condition, fmt::format("var Sine is not available for the Velocity of bodies; give the gas "
-                                                 "alone a Velocity, with id {}",
-                                                 solids));
-    }
+  for (const Element& condition : simulation::boundaryConditions(root)) {
+    const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
+    if (condition.attribute("var") != "Sine" || condition.attribute("label") != euler::boundary::velocity.name)
+      continue;
+    if (material < solids)
+      diagnostics.error(condition, fmt::format("var Sine is not available for the Velocity of bodies; give the gas "
+                                               "alone a Velocity, with id {}",
+                                               solids));
+  }
 }
 
 /// Refuses scalars of tracers that have the name of a variable of bodies: both would be one variable.
@@ -344,6 +342,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
                          .gravity = scene.gravity,
                          .soundSpeedKnob = scene.implicit->soundSpeedKnob,
                          .solver = scene.implicit->solver};
+  if (!settings.implicit) ice::letPressureRise(scene, settings.gas, settings.gases);
   if (scene.exchange) {
     const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
     const int gases = std::max<int>(1, static_cast<int>(scene.mixture.size()));
@@ -358,7 +357,9 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   noteContacts(root, diagnostics);
   if (!settings.thinWalls) noteThinBodies(bodies.materials, root, diagnostics);
   if (diagnostics.size() > before) return {};
-  return [settings, make = bodies.make](const Level& level) -> std::unique_ptr<Component> {
+  return [settings, make = bodies.make,
+          check = ice::checkOfAxes(root, scene)](const Level& level) -> std::unique_ptr<Component> {
+    check(level);
     if (level.dimension() == 1) return makeWithGas<1>(level, settings, make);
     if (level.dimension() == 2) return makeWithGas<2>(level, settings, make);
     return makeWithGas<3>(level, settings, make);

@@ -50,6 +50,18 @@ inline std::vector<input::Element> boundaryConditions(const input::Element& root
   return all;
 }
 
+/// Reports the conditions for materials that a scene with `count` materials does not have: they would apply to nothing.
+inline void refuseOtherMaterials(const input::Element& root, int count, input::Diagnostics& diagnostics) {
+  for (const input::Element& condition : boundaryConditions(root)) {
+    const auto material = input::parse<int>(condition.attribute("id").value_or("all")).value;
+    if (material && *material >= count)
+      diagnostics.error(condition.whereOf("id"), condition.path(),
+                        count == 1 ? fmt::format("there is no material {}: the only material has index 0", *material)
+                                   : fmt::format("there is no material {}; materials are numbered from 0 to {}",
+                                                 *material, count - 1));
+  }
+}
+
 /// The description of a component with as many dimensions as the grid has axes, and one section of settings.
 template <template <int> class C, class S>
 ComponentKind kindWithSection(std::string name, std::string sentence, const input::Schema<S>& schema,
@@ -63,6 +75,7 @@ ComponentKind kindWithSection(std::string name, std::string sentence, const inpu
   kind.forms = [&schema] { return std::vector<std::vector<SectionForm>>{{{schema.name(), &schema}}}; };
   kind.read = [&schema](const input::Element& root, input::Diagnostics& diagnostics) -> MakeComponent {
     const S settings = readSection(root, schema, diagnostics);
+    refuseOtherMaterials(root, 1, diagnostics);
     return [settings](const grid::Level& level) { return makeByDimension<C>(level, settings); };
   };
   return kind;

@@ -202,4 +202,39 @@ TEST(GasSides, MeetInCornersAsBeforeIfTheirRulesCommute) {
   EXPECT_EQ(Square(domain).at(-2, -1), (State<2>{9, 0.3, 0.2, 2}));
 }
 
+TEST(GasSides, RaiseAPressureThatContinuesByTheWeightOfTheGas) {
+  const double h = 0.25;
+  Gas heavy = air();
+  heavy.gravity = Vec3(-0.4, 0, 0);
+  EXPECT_EQ(beyond({}, heavy), (State<1>{1, 0.3, 2 + 0.4 * h})) << "x- is below";
+  heavy.push = Vec3(0.1, 0, 0);
+  EXPECT_EQ(beyond({}, heavy), (State<1>{1, 0.3, 2 + 0.4 * h - 0.1 * h}));
+  heavy.push.setZero();
+  EXPECT_EQ(beyond({given(boundary::pressure, 3)}, heavy), (State<1>{1, 0.3, 3})) << "a given pressure stays";
+  EXPECT_EQ(beyond({given(boundary::density, 3)}, heavy), (State<1>{3, 0.3, 2 + 2 * 0.4 * h})) << "the mean density";
+  EXPECT_EQ(beyond({{grid::symmetric, BoundaryKind::symmetry}}, heavy), (State<1>{1, -0.3, 2})) << "walls mirror";
+  heavy.gravity = Vec3(100, 0, 0);
+  EXPECT_GT(beyond({}, heavy)[kPressure<1>], 0) << "on cells that are too coarse, the pressure remains positive";
+}
+
+TEST(GasSides, ThatRelaxKnowTheWeightOfTheGas) {
+  // The pressure far away is that at the side, so there is nothing to relax.
+  Gas heavy = air();
+  heavy.gravity = Vec3(-0.4, 0, 0);
+  const grid::BoundaryCondition waves{boundary::waves, BoundaryKind::dirichlet, Vec3(2 + 0.05, 0.27, 0)};
+  EXPECT_DOUBLE_EQ(beyond({waves}, heavy)[kVelocity(0)], 0.3);
+  EXPECT_DOUBLE_EQ(beyond({waves}, heavy)[kPressure<1>], 2.1);
+}
+
+TEST(GasSides, GiveNoPressureThatRisesAlongAPeriodicAxis) {
+  grid::Domain domain = openBox(2, 4);
+  domain.periodic[0] = 1;
+  domain.boundaries.face(1, 0) = {given(boundary::pressure, 2)};
+  const Grid grid(domain);
+  Gas gas = air();
+  gas.weight = Vec3(0.2, -0.1, 0);
+  const Place place{grid.level(), 1, 0, grid::restOfSide, Vec3(0.875, -0.125, 0.5)};
+  EXPECT_DOUBLE_EQ(*pressureAt(place, gas), 2 + 0.1 * 0.25);
+}
+
 }  // namespace tushar::euler

@@ -120,6 +120,19 @@ TEST(BinaryProperties, AreRefusedWhereTheyHaveNoMeaning) {
             "material: found 'air', expected 'gas', the name of the gas");
 }
 
+TEST(BinaryProperties, NoteTheOtherPropertiesOfTheirGas) {
+  const auto notesOf = [](const std::string& tags) {
+    int count = 0;
+    const std::string scene = changedScene(binary(unlike, region("0", "1", "0.25"), ""), "<gamma>1.4</gamma>", tags);
+    for (const InputProblem& note : scene::readScene(scene, {}, catalogue()).notes)
+      count += note.sentence == "does nothing: it follows from the <constants> of BinaryProperties" ? 1 : 0;
+    return count;
+  };
+  // The scene gives a c_v of 2.5, and densities of 1 and .125; those of A are 2 and 1.
+  EXPECT_EQ(notesOf("<gamma>1.5</gamma>"), 2) << "of c_v and of one density";
+  EXPECT_EQ(notesOf("<gamma>1.4</gamma>"), 3);
+}
+
 TEST(BinaryProperties, GetHeatTogether) {
   // From t = 0 on, a box at rest with the energy c_v T = 3.5 per mass is heated by 3 W/kg.
   std::string scene = binary(unlike, region("0", "1", "0.25"), variable("c.pressure", "1"));
@@ -153,6 +166,12 @@ TEST(ProgrammedBurn, RunsThroughAGasAtItsSpeed) {
   EXPECT_NEAR(burned("0.005"), 0.4, 1.5 * width);
   EXPECT_NEAR(burned("0"), burned("0.005"), 1e-9) << "cells have the width along the axes that the grid uses";
   EXPECT_EQ(problemOf(changedScene(scene, "<toMaterial>helium", "<toMaterial>air")), "a gas cannot become itself");
+  // The burn is that at the end of a step: of the first cell, at the distance of half a width, (D t - .5 h) / (1.5 h)
+  // has burned after the first step.
+  const report::Report step = test::runScene(
+      scene, {"Grid/Level/Box/upper=[1,0.005,0.005]", helium + "gamma=1.4", helium + "specific_heat=2.5",
+              helium + "geom_object/temperature=8", "DataAnalysis/Module/right/gamma=1.4", "Time/max_Timesteps=1"});
+  EXPECT_NEAR(driftOf(step, "energy") * energy / 1e-3, width * (2 * step.time / width - 0.5) / 1.5, 1e-9);
 }
 
 }  // namespace tushar::ice

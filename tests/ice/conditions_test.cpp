@@ -176,4 +176,55 @@ TEST(IceViscosity, OfModelsIsRead) {
   EXPECT_EQ(problemOf(with("<Model name=\"Power\"/>")), "name: found 'Power', expected 'Sutherland' or 'SpongeLayer'");
 }
 
+namespace {
+
+/// The notes of Sod's scene with these conditions on x-.
+std::string notesOf(const std::string& scene) {
+  std::string all;
+  for (const InputProblem& note : scene::readScene(scene, {}, catalogue()).notes) all += note.sentence + '\n';
+  return all;
+}
+
+}  // namespace
+
+TEST(IceConditions, OfScalarsThatAreNotThereDoNothing) {
+  const std::string idle = "does nothing: the scene has no scalar ";
+  EXPECT_NE(notesOf(withSide(condition("scalar-f", "Dirichlet", "1"))).find(idle + "'f'"), std::string::npos);
+  EXPECT_NE(notesOf(withSide(condition("scalar-q_CC", "Dirichlet", "1"))).find(idle + "'q'"), std::string::npos);
+}
+
+TEST(IceConditions, WithoutSidesForThemConstantsDoNothing) {
+  const std::string lodi = "<LODI><press_infinity>1</press_infinity></LODI>", sine = "<SINE_BC/>";
+  EXPECT_NE(notesOf(withSide("", lodi)).find("does nothing: no side has var LODI"), std::string::npos);
+  EXPECT_NE(notesOf(withSide("", sine)).find("does nothing: no side has var Sine"), std::string::npos);
+  EXPECT_EQ(notesOf(withSide(condition("Pressure", "LODI"), lodi)).find("no side has"), std::string::npos);
+}
+
+TEST(IceConditions, AVortexMovesNothingAlongAnAxisWithOneCell) {
+  const auto vortex = [](const std::string& axis) {
+    return notesOf(changedScene(shear, "<advection type=\"SecondOrder\"/>",
+                                "<advection type=\"SecondOrder\"/><customInitialization><vortices><vortex><axis>" +
+                                    axis +
+                                    "</axis><origin>[0,0,0]</origin><strength>1</strength><radius>1</radius></vortex>"
+                                    "</vortices></customInitialization>"));
+  };
+  EXPECT_NE(vortex("X").find("does nothing along z, along which the grid has one cell"), std::string::npos);
+  EXPECT_EQ(vortex("Z").find("does nothing along z"), std::string::npos);
+}
+
+TEST(IceConditions, AllowTensionInAStiffenedGas) {
+  const std::string water = "<EOS type=\"stiffened_gas\"><p_infinity>2</p_infinity></EOS>";
+  const auto stiff = [&](const std::string& scene) { return changedScene(scene, "<EOS type=\"ideal_gas\"/>", water); };
+  const auto lodi = [&](const std::string& pressure) {
+    return withSide(condition("Pressure", "LODI"), "<LODI><press_infinity>" + pressure + "</press_infinity></LODI>");
+  };
+  EXPECT_EQ(problemOf(stiff(withSide(condition("Pressure", "Dirichlet", "-0.5")))), "");
+  EXPECT_EQ(problemOf(stiff(withSide(condition("Pressure", "Dirichlet", "-2")))),
+            "found '-2', expected a value greater than -2 Pa");
+  EXPECT_EQ(problemOf(withSide(condition("Pressure", "Dirichlet", "-0.5"))),
+            "found '-0.5', expected a value greater than 0 Pa");
+  EXPECT_EQ(problemOf(stiff(lodi("-0.5"))), "");
+  EXPECT_EQ(problemOf(lodi("-0.5")), "found '-0.5', expected a value greater than 0 Pa");
+}
+
 }  // namespace tushar::ice

@@ -2,6 +2,9 @@
 
 #include "components/euler/mixture.hpp"
 #include "components/ice/mixture/exchange_mass.hpp"
+#include "components/ice/mixture/tasks.hpp"
+#include "core/input/geometry/shapes.hpp"
+#include "tests/euler/gas_box.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace tushar::ice {
@@ -152,6 +155,35 @@ TEST(IceMixture, RefusesSidesOfOneGas) {
   EXPECT_EQ(problemOf(with(R"(<BCType id="2" label="Pressure" var="Neumann"><value>0</value></BCType>)")),
             "there is no material 2: the gases have indices 0 to 1");
   EXPECT_EQ(problemOf(with(R"(<BCType id="0" label="Pressure" var="Dirichlet"><value>1</value></BCType>)")), "");
+}
+
+TEST(IceMixture, BeginsWithTheShareOfEachGasInCellsThatASurfaceCuts) {
+  // Water with the density 4 up to x = .7, and air with the density 1 beyond, in four cells; .7 is in the third one.
+  const auto gas = [](double from, double to, double density, int points) {
+    auto slab = std::make_shared<input::Box>();
+    slab->min = Vec3(from, -1, -1);
+    slab->max = Vec3(to, 2, 2);
+    euler::Settings settings;
+    settings.gas.specificHeat = 2.5;
+    settings.objects = {{.where = {},
+                         .shape = slab,
+                         .density = input::Expression(density),
+                         .pressure = input::Expression(1),
+                         .velocity = {},
+                         .points = Index3{{points, 1, 1}}}};
+    return settings;
+  };
+  const Grid grid(euler::closedBox(1, 4));
+  for (const int points : {1, 2, 5}) {
+    const Gases gases{gas(-1, 0.7, 4, points), gas(0.7, 2, 1, 1)};
+    const auto start = MixtureStart<1>::in(grid.level(), gases, Index<1>{{2}});
+    const double share = points == 1 ? 1 : points == 2 ? 0.5 : 0.8;  // of the points below .7, from .5 to .75
+    EXPECT_DOUBLE_EQ(start.share[0], share) << points;
+    EXPECT_DOUBLE_EQ(start.mass[0], 4 * share);
+    EXPECT_DOUBLE_EQ(start.share[1] + share, 1);
+    EXPECT_DOUBLE_EQ(start.sum[euler::kDensity], 4 * share + 1 - share);
+    EXPECT_EQ(MixtureStart<1>::in(grid.level(), gases, Index<1>{{1}}).share[0], 1);
+  }
 }
 
 TEST(IceMixture, RefusesFourGases) {

@@ -154,4 +154,24 @@ TEST(PassiveScalar, ComesInThroughASideThatGivesIt) {
   EXPECT_LT(errorOf(scene, overrides, "max"), 1e-6);
 }
 
+TEST(Scalars, HaveTwoNamesAtSides) {
+  const auto withInflow = [](const std::string& more) {
+    std::string scene = changedScene(scalars, "<periodic>[1,1,0]</periodic>", "<periodic>[0,1,0]</periodic>");
+    return changedScene(scene, "<BoundaryConditions>", "<BoundaryConditions><Face side=\"x-\">" + more + "</Face>");
+  };
+  const auto given = [](const std::string& label) {
+    return "<BCType id=\"0\" label=\"" + label + "\" var=\"Dirichlet\"><value>3</value></BCType>";
+  };
+  const auto totalOf = [&](const std::string& conditions) {
+    return driftOf(test::runScene(withInflow(conditions), coarse), "scalar-f");
+  };
+  const double drift = totalOf(given("scalar-f"));
+  EXPECT_NE(drift, totalOf(""));
+  EXPECT_EQ(drift, totalOf(given("scalar-f_CC")));
+  EXPECT_NE(test::problemOf(withInflow(given("scalar-f") + given("scalar-f_CC")))
+                .find("scalar-f already has a condition "
+                      "on this face, at "),
+            std::string::npos);
+}
+
 }  // namespace tushar::ice

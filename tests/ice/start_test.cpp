@@ -57,10 +57,26 @@ TEST(CustomStart, OfVorticesInAWind) {
   start.manufactured = Manufactured{.type = "mms_1", .amplitude = 2};
   Vec3 velocity = Vec3::Zero();
   double temperature = 300;
-  start.apply({.3, .7, 0}, {.density = 1.2, .gasConstant = 287}, velocity, temperature);
+  const StartPlace place{.density = 1.2, .gas = {.gamma = 1.4, .specificHeat = 287 / .4}};
+  start.apply({.3, .7, 0}, place, velocity, temperature);
   EXPECT_NEAR(velocity[0], 1 - 2 * std::cos(.3) * std::sin(.7), 1e-14);
   EXPECT_NEAR(velocity[1], 1 + 2 * std::sin(.3) * std::cos(.7), 1e-14);
   EXPECT_NEAR(temperature * 1.2 * 287, 101325 - (std::cos(.6) + std::cos(1.4)), 1e-9);
+}
+
+TEST(CustomStart, OfAWindHasItsPressureInAnyGas) {
+  CustomStart start;
+  start.manufactured = Manufactured{.type = "mms_1", .amplitude = 2};
+  euler::Gas stiff{.gamma = 1.4, .pInfinity = 1e5, .specificHeat = 717.5}, spheres = stiff;
+  spheres.law = std::make_shared<const euler::Gas::Law>(
+      euler::RealGas({.gasConstant = 287, .specificHeat = 717.5, .covolume = .3}));
+  for (const euler::Gas& gas : {stiff, spheres}) {
+    Vec3 velocity = Vec3::Zero();
+    double temperature = 300;
+    start.apply({.3, .7, 0}, {.density = 1.2, .gas = gas}, velocity, temperature);
+    const double pressure = gas.pressureOf(1.2, gas.lastAt(1.2, temperature));
+    EXPECT_NEAR(pressure, 101325 - (std::cos(.6) + std::cos(1.4)), 1e-8);
+  }
 }
 
 TEST(CustomStart, OfTaylorsAndGreensVortexHasNoDivergence) {
@@ -88,6 +104,9 @@ TEST(CustomStart, HasOneFlow) {
   start.counterflow.reset();
   EXPECT_EQ(start.problem(1), "");
   EXPECT_NE(start.problem(2), "");
+  EXPECT_NE(
+      start.problem(1, {.law = std::make_shared<const euler::Gas::Law>(euler::CurvedGas(euler::ColdCurve(), 0, 1))}),
+      "");
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ struct Field {
 };
 
 struct Square {
-  explicit Square(const grid::Domain& domain, const std::function<Vec<2>(const Vec<2>&)>& v)
-      : grid(domain), field(grid.level(), v), flow(grid.patches().front(), {}, 0, field.view()) {}
+  explicit Square(const grid::Domain& domain, const std::function<Vec<2>(const Vec<2>&)>& v, const euler::Gas& gas = {})
+      : grid(domain), field(grid.level(), v), flow(grid.patches().front(), gas, 0, field.view()) {}
   Vec<2> at(const Vec<2>& x) const { return flow.at(x, grid.level().cellOf<2>(x)); }
 
   Grid grid;
@@ -59,6 +59,20 @@ TEST(Flow, EndsAtWalls) {
 TEST(Flow, BeyondAnOpenSideIsThatOfTheNearestCells) {
   const Square square(euler::openBox(2, 8), linear);
   EXPECT_LT((square.at({0, 0.4}) - linear({0.5 * h, 0.4})).norm(), 1e-15);
+}
+
+TEST(Flow, OfAViscousGasSticksToWalls) {
+  grid::Domain domain = euler::closedBox(2, 8);
+  for (const int side : {0, 1})
+    domain.boundaries.face(
+        1, side) = {{euler::boundary::velocity, BoundaryKind::dirichlet, Vec3(side == 0 ? -1 : 2, 0, 0)}};
+  const auto shear = [](const Vec<2>& x) { return Vec<2>(-1 + 3 * x[1], 0); };
+  euler::Gas viscous;
+  viscous.sticks = true;
+  const Square sticks(domain, shear, viscous), slips(domain, shear);
+  for (const double y : {0.0, 0.2 * h, 0.4, 1 - 0.3 * h, 1.0})
+    EXPECT_LT((sticks.at({0.5, y}) - shear({0.5, y})).norm(), 1e-15) << y;
+  EXPECT_DOUBLE_EQ(slips.at({0.5, 0})[0], shear({0, 0.5 * h})[0]) << "a gas without viscosity slips";
 }
 
 TEST(Flow, IsReflectedByWallsAlone) {

@@ -157,6 +157,30 @@ class SilentMistakes(unittest.TestCase):
                 self.assertEqual(said.count(sentence), int(overlaps), said)
                 self.assertEqual(f"bodies.ups:{line}:" in said, overlaps, said)
 
+    def test_conditions_of_materials_that_are_not_there(self):
+        """Until 30 November 2026, such a condition applied to nothing, so that a wall was an open side."""
+        side = '<Face side="x-">', '<Face side="x-"><BCType id="7" label="Symmetric" var="symmetry"/>'
+        alone = "BCType: there is no material 7: the only material has index 0"
+        scenes = {"euler/sod": alone, "heat/sine": alone, "poisson/sine": alone, "mpm/sod": alone,
+                  "solid/two_discs": "BCType: there is no material 7"}
+        for scene, sentence in scenes.items():
+            text = (ROOT / f"ups/{scene}.ups").read_text()
+            line = 1 + text[:text.index(side[0])].count("\n")
+            with self.subTest(scene):
+                self.assert_edited_is_refused(f"ups/{scene}.ups", *side, f"SCENE:{line}:", sentence)
+
+    def test_flows_along_a_periodic_axis_of_one_cell(self):
+        """Until 30 November 2026, such components of velocities were dropped."""
+        flat = "has a component along z, along which the grid has one cell and is periodic: give it 2 cells along z"
+        for scene, body in (("euler/vortex", "Euler/geom_object[1]/velocity"),
+                            ("ice/gresho_slow", "MaterialProperties/ICE/material/geom_object/velocity"),
+                            ("ice/gresho_slow", "PhysicalConstants/gravity")):
+            periodic = "Grid/Level/periodic=[1,1,1]"
+            with self.subTest(body):
+                self.assert_refused(run(f"ups/{scene}.ups", periodic, body + "=[0,0,.1]", outputs=True), body, flat)
+                done = run(f"ups/{scene}.ups", periodic, body + "=[.1,0,0]", "Time/max_Timesteps=1")
+                self.assertEqual(done.code, 0, done.err)
+
     def test_references_of_another_problem(self):
         riemann = "DataAnalysis/Module/"
         for scene in ("euler/sod", "mpm/sod", "mpm/sod_conserving"):

@@ -39,15 +39,14 @@ void checkState(const Settings& settings, const GasObject& object, const Vec3& p
                     allowed(settings.gas, density))}});
 }
 
-/// The last object that contains a point; null if no object does.
+}  // namespace
+
 const GasObject* objectAt(const Settings& settings, const Vec3& point) {
   const auto& objects = settings.objects;
   const auto object =
       std::find_if(objects.rbegin(), objects.rend(), [&](const GasObject& one) { return one.shape->owns(point); });
   return object == objects.rend() ? nullptr : &*object;
 }
-
-}  // namespace
 
 template <int D>
 void checkObjects(const Level& level, const Settings& settings) {

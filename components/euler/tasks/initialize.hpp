@@ -16,6 +16,8 @@ void checkObjects(const Level& level, const Settings& settings);
 template <int D>
 std::optional<State<D>> stateAt(const Level& level, const Settings& settings, const Vec3& point);
 
+/// The last object of a gas that contains a point; null if no object does.
+const GasObject* objectAt(const Settings& settings, const Vec3& point);
 /// The initial volume fraction of a gas at a point, from the last object that contains it; 0 if no object does.
 double shareAt(const Settings& settings, const Vec3& point);
 

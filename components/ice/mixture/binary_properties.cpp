@@ -92,6 +92,7 @@ euler::GasObject objectOf(const euler::GasObject& common, const FractionRegion& 
   // Both gases have the same temperature and pressure: m R T = z p, rho_k R_k = rho R.
   object.density = number(density * gasConstant / gas.gasConstant);
   object.share = number(part * gas.gasConstant / gasConstant);
+  object.points = Index3::filled(1);  // it is one gas, whose mass fraction is that at the centre
   return object;
 }
 

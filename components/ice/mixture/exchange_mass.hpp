@@ -73,8 +73,8 @@ struct BurningGas {
 /// Converts the part of a gas that its programmed burn has reached into another gas, which takes over its volume, and
 /// adds the heat of the reaction. Mass and momentum are conserved; the energy increases by this heat.
 template <int D>
-void burnByProgram(const Patch& patch, const Gases&, const BurningGas& one, double time, CellView<double> totalEnergy,
-                   const std::vector<euler::ChangedGas>& held) {
+void burnByProgram(const Patch& patch, const Gases&, const BurningGas& one, double time, double dt,
+                   CellView<double> totalEnergy, const std::vector<euler::ChangedGas>& held) {
   const Level& level = patch.level();
   const euler::ChangedGas &from = held[one.from], &to = held[one.to];
   double product = 1;  // of the widths of cells along the axes with an extent
@@ -89,7 +89,7 @@ void burnByProgram(const Patch& patch, const Gases&, const BurningGas& one, doub
     const double mass = from.mass[cell];
     if (!(mass > 0) || !one.burn.takesCell(from.share[cell] + to.share[cell])) return;
     const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
-    const double reached = one.burn.reached(point, time, width) * (mass + to.mass[cell]);
+    const double reached = one.burn.reached(point, time + dt, width) * (mass + to.mass[cell]);
     const double burned = std::clamp(reached - to.mass[cell], 0.0, mass), share = burned / mass * from.share[cell];
     from.mass[cell] = burned < mass ? mass - burned : 0;
     to.mass[cell] += burned;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "components/euler/labels.hpp"
@@ -18,8 +19,8 @@ namespace {
 /// temperature.
 constexpr double oneForAll = 1e9;
 
-/// Uintah's name of the mass fraction in BinaryProperties.
-constexpr std::string_view fractionLabel = "scalar-f";
+/// Uintah's names of the mass fraction in BinaryProperties.
+constexpr std::array<std::string_view, 2> fractionLabels{"scalar-f", "scalar-f_CC"};
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
   const auto kind = material.state.kind;
@@ -109,7 +110,8 @@ void checkMaterial(const Element& condition, int solids, Diagnostics& diagnostic
 void checkSide(const Element& face, const Element& condition, int solids, bool isBinary, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
-  const bool saysWhat = label == euler::boundary::density.name || (isBinary && label == fractionLabel) ||
+  const bool saysWhat = label == euler::boundary::density.name ||
+                        (isBinary && (label == fractionLabels[0] || label == fractionLabels[1])) ||
                         (label == euler::boundary::temperature.name && !isWall(face));
   if (isGiven && saysWhat)
     diagnostics.error(condition,

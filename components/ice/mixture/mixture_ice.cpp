@@ -128,7 +128,7 @@ void MixtureIce<D>::scheduleSources(TaskList& tasks) const {
     tasks.acrossMaterials("ice::transferMass", transferMass<D>, gases_, with(one), startTime(), requiresOld(delT),
                           all<euler::ChangedGas>());
   for (const BurningGas& one : burning_)
-    tasks.acrossMaterials("ice::burnByProgram", burnByProgram<D>, gases_, with(one), startTime(),
+    tasks.acrossMaterials("ice::burnByProgram", burnByProgram<D>, gases_, with(one), startTime(), requiresOld(delT),
                           withoutMaterial(modifies(euler::c::totalEnergy)), all<euler::ChangedGas>());
   for (const Reaction& one : reactions_)
     tasks.acrossMaterials("ice::reactGas", reactGas<D>, gases_, with(one), requiresOld(delT),

@@ -20,6 +20,7 @@ struct MixtureStart {
   euler::State<D> sum{};                                  ///< joint state of all gases
   std::array<double, euler::kMostGases> mass{}, share{};  ///< mass and volume fraction of each gas
   double filled = 0;                                      ///< sum of the volume fractions
+  static constexpr double greatestGap = 1e-9;             ///< by which this sum may differ from 1
 
   static MixtureStart at(const Level& level, const Gases& gases, const Vec3& point) {
     MixtureStart start;
@@ -34,9 +35,55 @@ struct MixtureStart {
     }
     return start;
   }
+  /// The initial state of a cell: that at its centre or, if surfaces between gases cut it, the mean over the points of
+  /// it at which gases fill the space. Cells that bodies cut have the gas at the centre.
+  static MixtureStart in(const Level& level, const Gases& gases, const Index<D>& cell) {
+    const Vec3 centre = level.expandPoint<D>(level.cellCentre<D>(cell));
+    const MixtureStart middle = at(level, gases, centre);
+    const Box points = pointsOf(level, gases);
+    if (points.size() == 1 || !middle.isFull()) return middle;
+    MixtureStart mean;
+    int count = 0;
+    bool isCut = false;
+    forEach<D>(points, [&](const Index<D>& place) {
+      Vec<D> x;
+      for (int d = 0; d < D; ++d)
+        x[d] = level.nodePosition(d, cell[d]) + (place[d] + 0.5) / points.upper[d] * level.spacing(d);
+      const Vec3 point = level.expandPoint<D>(x);
+      const MixtureStart there = at(level, gases, point);
+      if (!there.isFull()) return;
+      for (const euler::Settings& gas : gases)
+        isCut = isCut || euler::objectAt(gas, point) != euler::objectAt(gas, centre);
+      mean.add(there);
+      ++count;
+    });
+    return isCut ? mean.times(1.0 / count) : middle;
+  }
+  /// The points of a cell at which the regions of gases are found.
+  static Box pointsOf(const Level& level, const Gases& gases) {
+    Box points{{}, Index3::filled(1)};
+    for (const euler::Settings& gas : gases)
+      for (const euler::GasObject& one : gas.objects)
+        for (int d = 0; d < D; ++d) points.upper[d] = std::max(points.upper[d], one.points[level.axis(d)]);
+    return points;
+  }
+  bool isFull() const { return std::abs(filled - 1) < greatestGap; }
+  void add(const MixtureStart& other) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += other.sum[i];
+    for (std::size_t k = 0; k < mass.size(); ++k) mass[k] += other.mass[k], share[k] += other.share[k];
+    filled += other.filled;
+  }
+  MixtureStart times(double factor) const {
+    MixtureStart scaled = *this;
+    for (double& number : scaled.sum) number *= factor;
+    for (double& number : scaled.mass) number *= factor;
+    for (double& number : scaled.share) number *= factor;
+    scaled.filled *= factor;
+    return scaled;
+  }
   /// Throws InputError unless the volume fractions add up to 1.
   void check(const Gases& gases, const Vec3& point) const {
-    if (!(std::abs(filled - 1) < 1e-9))
+    if (!isFull())
       throw InputError({{gases.front().where, "MaterialProperties/ICE/material",
                          fmt::format("the gases fill {:.6g} of the cell around ({:g}, {:g}, {:g}): together they must "
                                      "fill the grid; in cells that they share, each needs a <volumeFraction>",
@@ -54,7 +101,7 @@ void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewS
     for (const euler::Settings& gas : gases) euler::checkObjects<D>(level, gas);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
-    const auto start = MixtureStart<D>::at(level, gases, point);
+    const auto start = MixtureStart<D>::in(level, gases, cell);
     start.check(gases, point);
     for (std::size_t k = 0; k < gases.size(); ++k) {
       held[k].share[cell] = start.share[k];

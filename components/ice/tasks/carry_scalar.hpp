@@ -175,7 +175,8 @@ class ScalarFlux {
       const double rho = 0.5 * (before_.density[below] + before_.density[above]);
       return mass * f - rho * diffusivity * perWidth * (before_.value(above) - before_.value(below));
     }
-    const auto given = euler::givenAt(placeOf(cell, axis, side), gas_, scalar_.atSides());
+    auto given = euler::givenAt(placeOf(cell, axis, side), gas_, scalar_.atSides()[0]);
+    if (!given) given = euler::givenAt(placeOf(cell, axis, side), gas_, scalar_.atSides()[1]);
     const double f = leaves || !given ? faces_.at(cell, axis, side) : *given;
     if (diffusivity == 0 || !given) return mass * f;
     const double rise = (side == 0 ? 2 : -2) * (before_.value(cell) - *given);

@@ -14,14 +14,16 @@ inline constexpr int flowReach = 2;
 
 /// The velocity with which tracers move. Between the centres of cells it is interpolated multilinearly. Beyond a side
 /// of the grid, cells have the velocities that the gas has there: mirrored at walls and symmetry planes, given at other
-/// sides, or else those of the nearest cells.
+/// sides, or else those of the nearest cells. A viscous gas has the velocity of a wall at the wall.
 template <int D>
 class Flow {
  public:
   /// `velocity` of the cells of a patch, with flowReach layers around it; conditions at sides apply at `time` [s].
   Flow(const Patch& patch, const euler::Gas& gas, double time, CellView<const Vec<D>> velocity)
       : level_(patch.level()), gas_(lawless(gas)), velocity_(velocity), is_near_side_(isNearSide(patch)) {
-    if (is_near_side_) rules_ = euler::ghostRules<D>(level_, gas_, time, patch.cells().grown(flowReach, D));
+    if (!is_near_side_) return;
+    rules_ = euler::ghostRules<D>(level_, gas_, time, patch.cells().grown(flowReach, D));
+    if (gas_.sticks) at_walls_ = euler::diffusionRules<D>(level_, gas_, time);
   }
 
   /// The velocity of a cell, which may be beyond a side.
@@ -33,7 +35,7 @@ class Flow {
       const int last = level_.cells().upper[d] - 1;
       if (level_.isPeriodic(d) || (cell[d] >= 0 && cell[d] <= last)) continue;
       const int side = cell[d] < 0 ? 0 : 1;
-      const euler::GhostRule<D>& rule = applied[count++] = euler::ruleAt<D>(level_, rules_, d, side, cell);
+      const euler::GhostRule<D>& rule = applied[count++] = ruleAt(cell, d, side);
       const int mirrored = side == 0 ? -1 - cell[d] : 2 * last + 1 - cell[d];
       cell[d] = std::clamp(rule.mirrored ? mirrored : cell[d], 0, last);
     }
@@ -81,6 +83,10 @@ class Flow {
   }
 
  private:
+  euler::GhostRule<D> ruleAt(const Index<D>& cell, int axis, int side) const {
+    const euler::GhostRule<D> rule = euler::ruleAt<D>(level_, rules_, axis, side, cell);
+    return rule.mirrored && gas_.sticks ? euler::ruleAt<D>(level_, at_walls_, axis, side, cell) : rule;
+  }
   /// Only the velocities beyond sides are needed, which do not depend on the law of the gas.
   static euler::Gas lawless(euler::Gas gas) {
     gas.law.reset();
@@ -99,7 +105,7 @@ class Flow {
   euler::Gas gas_;
   CellView<const Vec<D>> velocity_;
   bool is_near_side_;
-  euler::GhostRules<D> rules_;
+  euler::GhostRules<D> rules_, at_walls_;
 };
 
 }  // namespace tushar::ice

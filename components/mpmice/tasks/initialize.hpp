@@ -74,7 +74,7 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
   });
 }
 
-/// The initial gases of a cell: those at its centre or, if there are none, at the nearest cell centre that has gas,
+/// The initial gases of a cell: those in it or, if there are none at its centre, at the nearest cell centre that has gas,
 /// since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, if there is none at this
 /// one, although no body is near, or if the gases do not fill the cell.
 template <int D>
@@ -82,7 +82,7 @@ ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settin
                              const Index<D>& cell) {
   const auto pointOf = [&](const Index<D>& of) { return level.expandPoint<D>(level.cellCentre<D>(of)); };
   Vec3 point = pointOf(cell);
-  auto start = ice::MixtureStart<D>::at(level, gases, point);
+  auto start = ice::MixtureStart<D>::in(level, gases, cell);
   int least = start.filled > 0 ? 0 : std::numeric_limits<int>::max();
   const auto take = [&](const Index<D>& other, int apart) {
     if (apart >= least) return;
