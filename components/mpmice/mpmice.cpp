@@ -12,7 +12,9 @@
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/tasks/conduct_to_bodies.hpp"
 #include "components/mpmice/tasks/exchange_heat.hpp"
+#include "components/mpmice/tasks/exchange_heat_at_faces.hpp"
 #include "components/mpmice/tasks/find_flow.hpp"
+#include "components/mpmice/tasks/heat_of_bodies.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
 #include "components/mpmice/tasks/react_gas.hpp"
@@ -243,19 +245,34 @@ void GasAround<D>::shareScalars(TaskList& tasks) const {
   }
 }
 
+/// Adds the tasks for heat exchange by coefficients between bodies and gases, of which there are at most `Most`.
+template <int D>
+template <int Most>
+void GasAround<D>::scheduleExchange(TaskList& tasks, const Materials& materials) const {
+  const std::size_t gases = settings_.gases.size();
+  tasks.perMaterial("mpmice::measureHeatOfBody", measureHeatOfBody<D>, materials, all<WarmParticles<D>>(burns()),
+                    all<NewWarmBody>());
+  tasks.acrossMaterials("mpmice::exchangeHeatAtFaces", exchangeHeatAtFaces<D, Most>, materials, with(settings_),
+                        requiresOld(delT), withoutMaterial(all<WarmGas<D, const double>>(gases, 1)), all<WarmBody>(1),
+                        all<HeatOfBodyAtFaces>(), withoutMaterial(all<HeatOfGasAtFaces>(gases)));
+  tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D, Most>, materials, with(settings_), startTime(),
+                        requiresOld(delT), withoutMaterial(all<WarmGas<D>>(gases)),
+                        withoutMaterial(all<GasAtFaces>(gases)), all<WarmingBody>(), withoutMaterial(offers(c::heat)));
+  tasks.perMaterial("mpmice::warmBody", warmBody<D>, materials, requiresNew(p::x<D>), requiresNew(p::boxEdges<D>),
+                    requiresNew(c::warming, boxReach), modifies(p::temperature));
+}
+
 /// Adds the tasks for heat exchange by coefficients, and for heat from outside.
 template <int D>
 void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) const {
   const std::size_t gases = settings_.gases.size();
-  const bool areFew = materials.size() + std::max<std::size_t>(1, gases) <= kFewThings;
-  if (hasHeat())
-    tasks.acrossMaterials(
-        "mpmice::exchangeHeat", areFew ? exchangeHeat<D, kFewThings> : exchangeHeat<D, Eigen::Dynamic>, materials,
-        with(settings_), startTime(), requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(gases)),
-        all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)), withoutMaterial(offers(c::heat)));
+  if (hasHeat() && materials.size() + std::max<std::size_t>(1, gases) <= kFewThings)
+    scheduleExchange<kFewThings>(tasks, materials);
+  else if (hasHeat())
+    scheduleExchange<Eigen::Dynamic>(tasks, materials);
   else if (settings_.heating.acts() && gases > 0)
     tasks.perPatch("mpmice::heatGases", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
-                   all<HeatedGas<D>>(gases));
+                   all<WarmGas<D>>(gases));
   else if (settings_.heating.acts())
     tasks.perPatch("mpmice::heatGas", ice::addHeat<D>, with(settings_.heating), requiresNew(c::density), startTime(),
                    requiresOld(delT), modifies(c::totalEnergy));
