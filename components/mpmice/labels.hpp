@@ -42,6 +42,10 @@ inline constexpr CellLabel<Vec<D>> sweptBy{
     "mean displacement of the bodies that moved through the lower faces, in cell widths; infinite if none did"};
 /// c.sweptBy of faces through which no body moved.
 inline constexpr double notSwept = std::numeric_limits<double>::infinity();
+template <int D>
+inline constexpr CellLabel<Vec<D>> leaving{"c.leaving", "1",
+                                           "volume of bodies that left the grid through the faces of the cell in the "
+                                           "step, divided by that of a cell"};
 /// A pair of labels, each with one number per axis: for the walls at the lower faces of a cell, and for those at the
 /// upper faces.
 template <int D>
@@ -176,6 +180,9 @@ using namespace mpm::solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
                                                 "edges of the box that represents the particle, in cells"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> ahead{
+    "p.ahead", "1", "1 or -1 along an axis if the particle ahead has left the grid through its upper or lower side"};
 inline constexpr ParticleLabel<double> surfaceTemperature{
     "p.surfaceTemperature", "K", "temperature of the burning surface in the particle's cell; 0 where nothing burns"};
 inline constexpr ParticleLabel<double> surfaceGradient{

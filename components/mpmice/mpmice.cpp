@@ -16,7 +16,7 @@
 #include "components/mpmice/tasks/find_flow.hpp"
 #include "components/mpmice/tasks/heat_of_bodies.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
-#include "components/mpmice/tasks/measure_bodies.hpp"
+#include "components/mpmice/tasks/measure_motion.hpp"
 #include "components/mpmice/tasks/react_gas.hpp"
 #include "components/mpmice/tasks/refine_gas.hpp"
 #include "components/mpmice/tasks/share_scalar.hpp"
@@ -95,6 +95,8 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
       tasks.perPatch("mpmice::startBurnModes", startBurnModes<D>, computes(c::burnMode), computes(c::waited),
                      computes(c::inductionTime));
   }
+  if (settings_.opensAtSides)
+    tasks.perMaterial("mpmice::startAhead", startAhead<D>, materials, requiresNew(p::mass), computes(p::ahead<D>));
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
@@ -158,10 +160,14 @@ void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) co
   tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresOld(p::size<D>),
                     requiresNew(p::deformationMeasure), when(burns(), requiresNew(p::unburned)),
                     computes(p::boxEdges<D>));
-  tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, withoutMaterial(all<GasNearby>()),
-                        all<MovedBoxes<D>>(),
+  if (settings_.opensAtSides)
+    tasks.perMaterial("mpmice::findFollowers", findFollowers<D>, materials, with(settings_), all<Boxes<D>>(readsNew),
+                      requiresOld(p::ahead<D>), computes(p::ahead<D>));
+  tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, with(settings_),
+                        withoutMaterial(all<GasNearby>()), all<MovedBoxes<D>>(settings_.opensAtSides),
                         withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume, settings_.endsAtPlane)),
-                        withoutMaterial(all<SweptFaces<D>>()));
+                        withoutMaterial(all<SweptFaces<D>>()),
+                        withoutMaterial(when(settings_.opensAtSides, computes(c::leaving<D>))));
 }
 
 template <int D>
@@ -169,16 +175,17 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   scheduleBoxes(tasks, materials);
   const bool keepsMasses = !scalars_.empty();
   if (settings_.implicit)
-    tasks.acrossMaterials(
-        "mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_), startTime(), requiresOld(delT),
-        withoutMaterial(all<GasInStep<D>>(settings_.endsAtPlane)), withoutMaterial(all<BodiesInStep<D>>(isViscous())),
-        all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
-        withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
+    tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_), startTime(),
+                          requiresOld(delT), withoutMaterial(all<GasInStep<D>>(settings_.endsAtPlane)),
+                          withoutMaterial(all<BodiesInStep<D>>(isViscous(), settings_.opensAtSides)),
+                          all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
+                          withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)),
+                          computes(total::powerOnBodies));
   else
     tasks.acrossMaterials(
         "mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials, with(settings_),
         startTime(), requiresOld(delT), withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
-        withoutMaterial(all<BodiesInStep<D>>(isViscous())),
+        withoutMaterial(all<BodiesInStep<D>>(isViscous(), settings_.opensAtSides)),
         all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
         withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
   carryScalars(tasks);

@@ -82,6 +82,12 @@ def warm_discs(of):
                     changes=[("<heat>[0, 0, 0]<", "<heat>[30, 200, 1e15]<")])
 
 
+def open_sides(axes="xy"):
+    """The changes of a scene that open the sides along some axes."""
+    return [(f'<Face side="{axis}{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>', "")
+            for axis in axes for side in "-+"]
+
+
 class Images(SceneTest):
     def assert_alike(self, image, scene_of, *sets):
         """Runs `scene_of(image)` and the scene itself, and compares pressures and velocities at the end."""
@@ -191,6 +197,14 @@ class Images(SceneTest):
     def test_of_bodies_that_exchange_heat_differ_by_round_off(self):
         for image in (MIRRORED, UPSIDE_DOWN, SWAPPED):
             self.assert_alike(image, warm_discs, "Time/max_Timesteps=5")
+
+    def test_of_bodies_that_leave_the_grid_differ_by_round_off(self):
+        def disc(of):
+            body = of.body(of.disc((.72, .69), .2), 20, (1, .8, 0), (3, 3, 1))
+            return of.scene(((0, 0, 0), (1, 1, .05), (20, 20, 1)), [body], of.gas((.5, .6, 0)), changes=open_sides())
+
+        for image in (MIRRORED, UPSIDE_DOWN, SWAPPED):
+            self.assert_alike(image, disc, "Time/max_Timesteps=25")
 
 
 if __name__ == "__main__":
