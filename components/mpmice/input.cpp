@@ -7,8 +7,8 @@
 #include "components/mpm/solid/constitutive/visco_scram.hpp"
 #include "components/mpm/solid/explicit/input.hpp"
 #include "components/mpm/solid/scene_input.hpp"
-#include "components/mpmice/box_images.hpp"
 #include "components/mpmice/mpmice.hpp"
+#include "components/mpmice/open_sides.hpp"
 #include "components/mpmice/wave_speeds.hpp"
 #include "core/simulation/by_dimension.hpp"
 
@@ -296,7 +296,7 @@ void refuseNamesOfBodies(const ice::GasScene& scene, Diagnostics& diagnostics) {
 template <int D>
 std::unique_ptr<Component> makeWithGas(const Level& level, Settings settings,
                                        const mpm::solid::MakeSurrounded& makeSolids) {
-  settings.endsAtPlane = hasUpperPlane(level);
+  lookAtSides<D>(level, settings);
   auto gas = std::make_shared<const GasAround<D>>(settings);
   std::unique_ptr<mpm::solid::Solids> solids = makeSolids(level, settings.areRigid, gas);
   return std::make_unique<MpmIce<D>>(std::move(gas), std::move(solids));

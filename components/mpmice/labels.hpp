@@ -42,6 +42,10 @@ inline constexpr CellLabel<Vec<D>> sweptBy{
     "mean displacement of the bodies that moved through the lower faces, in cell widths; infinite if none did"};
 /// c.sweptBy of faces through which no body moved.
 inline constexpr double notSwept = std::numeric_limits<double>::infinity();
+template <int D>
+inline constexpr CellLabel<Vec<D>> leaving{"c.leaving", "1",
+                                           "volume of bodies that left the grid through the faces of the cell in the "
+                                           "step, divided by that of a cell"};
 /// A pair of labels, each with one number per axis: for the walls at the lower faces of a cell, and for those at the
 /// upper faces.
 template <int D>
@@ -100,6 +104,21 @@ inline constexpr CellLabel<double> wallHeat{"c.heatToWalls", "J/m^3", "heat from
 inline constexpr CellLabel<double> bodyCapacity{"c.bodyCapacity", "J/(m^3 K)", "heat capacity of bodies"};
 inline constexpr CellLabel<double> bodyTemperature{"c.bodyTemperature", "K",
                                                    "mean temperature of bodies, weighted by heat capacity"};
+/// Labels of each body that exchanges heat by coefficients, and of each gas.
+inline constexpr CellLabel<double> capacityOfBody{"c.capacityOfBody", "J/(m^3 K)", "heat capacity of the body"};
+inline constexpr CellLabel<double> temperatureOfBody{"c.temperatureOfBody", "K",
+                                                     "mean temperature of the body, weighted by heat capacity"};
+inline constexpr CellLabel<double> volumeOfBody{"c.volumeOfBody", "1",
+                                                "volume of the boxes of the body, divided by that of the cell"};
+inline constexpr CellLabel<double> heatOfBodyAtFaces{"c.heatOfBodyAtFaces", "J/m^3",
+                                                     "heat that the body received from neighbouring cells in the step"};
+inline constexpr std::array<CellLabel<double>, 3> heatOfGasAtFaces{
+    {{"c.heatOfGasAtFaces0", "J/m^3", "heat that the first gas received from bodies in neighbouring cells in the step"},
+     {"c.heatOfGasAtFaces1", "J/m^3",
+      "heat that the second gas received from bodies in neighbouring cells in the step"},
+     {"c.heatOfGasAtFaces2", "J/m^3",
+      "heat that the third gas received from bodies in neighbouring cells in the step"}}};
+inline constexpr CellLabel<double> warming{"c.warming", "K", "change of the temperature of the body in the step"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> impulseSinceStart{"c.impulseSinceStart", "N s/m^3",
                                                      "impulse of the gas on walls since the start"};
@@ -161,6 +180,9 @@ using namespace mpm::solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
                                                 "edges of the box that represents the particle, in cells"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> ahead{
+    "p.ahead", "1", "1 or -1 along an axis if the particle ahead has left the grid through its upper or lower side"};
 inline constexpr ParticleLabel<double> surfaceTemperature{
     "p.surfaceTemperature", "K", "temperature of the burning surface in the particle's cell; 0 where nothing burns"};
 inline constexpr ParticleLabel<double> surfaceGradient{

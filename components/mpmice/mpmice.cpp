@@ -12,9 +12,11 @@
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/tasks/conduct_to_bodies.hpp"
 #include "components/mpmice/tasks/exchange_heat.hpp"
+#include "components/mpmice/tasks/exchange_heat_at_faces.hpp"
 #include "components/mpmice/tasks/find_flow.hpp"
+#include "components/mpmice/tasks/heat_of_bodies.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
-#include "components/mpmice/tasks/measure_bodies.hpp"
+#include "components/mpmice/tasks/measure_motion.hpp"
 #include "components/mpmice/tasks/react_gas.hpp"
 #include "components/mpmice/tasks/refine_gas.hpp"
 #include "components/mpmice/tasks/share_scalar.hpp"
@@ -93,6 +95,8 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
       tasks.perPatch("mpmice::startBurnModes", startBurnModes<D>, computes(c::burnMode), computes(c::waited),
                      computes(c::inductionTime));
   }
+  if (settings_.opensAtSides)
+    tasks.perMaterial("mpmice::startAhead", startAhead<D>, materials, requiresNew(p::mass), computes(p::ahead<D>));
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
@@ -156,10 +160,14 @@ void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) co
   tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresOld(p::size<D>),
                     requiresNew(p::deformationMeasure), when(burns(), requiresNew(p::unburned)),
                     computes(p::boxEdges<D>));
-  tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, withoutMaterial(all<GasNearby>()),
-                        all<MovedBoxes<D>>(),
+  if (settings_.opensAtSides)
+    tasks.perMaterial("mpmice::findFollowers", findFollowers<D>, materials, with(settings_), all<Boxes<D>>(readsNew),
+                      requiresOld(p::ahead<D>), computes(p::ahead<D>));
+  tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, with(settings_),
+                        withoutMaterial(all<GasNearby>()), all<MovedBoxes<D>>(settings_.opensAtSides),
                         withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume, settings_.endsAtPlane)),
-                        withoutMaterial(all<SweptFaces<D>>()));
+                        withoutMaterial(all<SweptFaces<D>>()),
+                        withoutMaterial(when(settings_.opensAtSides, computes(c::leaving<D>))));
 }
 
 template <int D>
@@ -167,16 +175,17 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   scheduleBoxes(tasks, materials);
   const bool keepsMasses = !scalars_.empty();
   if (settings_.implicit)
-    tasks.acrossMaterials(
-        "mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_), startTime(), requiresOld(delT),
-        withoutMaterial(all<GasInStep<D>>(settings_.endsAtPlane)), withoutMaterial(all<BodiesInStep<D>>(isViscous())),
-        all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
-        withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
+    tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_), startTime(),
+                          requiresOld(delT), withoutMaterial(all<GasInStep<D>>(settings_.endsAtPlane)),
+                          withoutMaterial(all<BodiesInStep<D>>(isViscous(), settings_.opensAtSides)),
+                          all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
+                          withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)),
+                          computes(total::powerOnBodies));
   else
     tasks.acrossMaterials(
         "mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials, with(settings_),
         startTime(), requiresOld(delT), withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
-        withoutMaterial(all<BodiesInStep<D>>(isViscous())),
+        withoutMaterial(all<BodiesInStep<D>>(isViscous(), settings_.opensAtSides)),
         all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
         withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
   carryScalars(tasks);
@@ -243,19 +252,34 @@ void GasAround<D>::shareScalars(TaskList& tasks) const {
   }
 }
 
+/// Adds the tasks for heat exchange by coefficients between bodies and gases, of which there are at most `Most`.
+template <int D>
+template <int Most>
+void GasAround<D>::scheduleExchange(TaskList& tasks, const Materials& materials) const {
+  const std::size_t gases = settings_.gases.size();
+  tasks.perMaterial("mpmice::measureHeatOfBody", measureHeatOfBody<D>, materials, all<WarmParticles<D>>(burns()),
+                    all<NewWarmBody>());
+  tasks.acrossMaterials("mpmice::exchangeHeatAtFaces", exchangeHeatAtFaces<D, Most>, materials, with(settings_),
+                        requiresOld(delT), withoutMaterial(all<WarmGas<D, const double>>(gases, 1)), all<WarmBody>(1),
+                        all<HeatOfBodyAtFaces>(), withoutMaterial(all<HeatOfGasAtFaces>(gases)));
+  tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D, Most>, materials, with(settings_), startTime(),
+                        requiresOld(delT), withoutMaterial(all<WarmGas<D>>(gases)),
+                        withoutMaterial(all<GasAtFaces>(gases)), all<WarmingBody>(), withoutMaterial(offers(c::heat)));
+  tasks.perMaterial("mpmice::warmBody", warmBody<D>, materials, requiresNew(p::x<D>), requiresNew(p::boxEdges<D>),
+                    requiresNew(c::warming, boxReach), modifies(p::temperature));
+}
+
 /// Adds the tasks for heat exchange by coefficients, and for heat from outside.
 template <int D>
 void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) const {
   const std::size_t gases = settings_.gases.size();
-  const bool areFew = materials.size() + std::max<std::size_t>(1, gases) <= kFewThings;
-  if (hasHeat())
-    tasks.acrossMaterials(
-        "mpmice::exchangeHeat", areFew ? exchangeHeat<D, kFewThings> : exchangeHeat<D, Eigen::Dynamic>, materials,
-        with(settings_), startTime(), requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(gases)),
-        all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)), withoutMaterial(offers(c::heat)));
+  if (hasHeat() && materials.size() + std::max<std::size_t>(1, gases) <= kFewThings)
+    scheduleExchange<kFewThings>(tasks, materials);
+  else if (hasHeat())
+    scheduleExchange<Eigen::Dynamic>(tasks, materials);
   else if (settings_.heating.acts() && gases > 0)
     tasks.perPatch("mpmice::heatGases", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
-                   all<HeatedGas<D>>(gases));
+                   all<WarmGas<D>>(gases));
   else if (settings_.heating.acts())
     tasks.perPatch("mpmice::heatGas", ice::addHeat<D>, with(settings_.heating), requiresNew(c::density), startTime(),
                    requiresOld(delT), modifies(c::totalEnergy));

@@ -50,6 +50,8 @@ class GasAround : public mpm::solid::Surroundings {
   bool hasHeat() const { return settings_.heat.act(); }
   bool conductsToBodies() const { return settings_.diffusion.conducts() && hasHeat(); }
   void scheduleHeat(TaskList& tasks, const Materials& materials) const;
+  template <int Most>
+  void scheduleExchange(TaskList& tasks, const Materials& materials) const;
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
   bool isViscous() const { return settings_.diffusion.isViscous(); }
   void schedulePressure(TaskList& tasks, const Materials& materials) const;

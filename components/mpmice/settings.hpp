@@ -51,6 +51,7 @@ struct Settings {
   bool thinWalls = false;        ///< whether bodies thinner than a cell also block the gas
   bool areRigid = false;         ///< whether bodies keep their velocities, unaffected by the gas
   bool endsAtPlane = false;      ///< whether an upper side of the grid is a symmetry plane
+  bool opensAtSides = false;     ///< whether bodies may leave the grid through open sides
   GasDiffusion diffusion = {};
   std::optional<ice::IceSettings> implicit = {};    ///< settings of implicit steps, if sound does not limit the steps
   ice::Heating heating = {};                        ///< heating of the gases

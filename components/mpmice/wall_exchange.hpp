@@ -2,40 +2,11 @@
 
 #include "components/euler/tasks/advance_block.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpmice/bodies_in_step.hpp"
+#include "components/mpmice/passing_gas.hpp"
 #include "components/mpmice/tasks/measure_exchange.hpp"
-#include "components/mpmice/tasks/wall_force.hpp"
 
 namespace tushar::mpmice {
-
-/// Views of the effects of bodies on the gas in a step: by their walls, and by changes of free volumes and faces.
-template <int D>
-struct BodiesInStep {
-  KnownWalls<D> walls;
-  CellView<const double> newFree;
-  CellView<const Vec<D>> swept, sweptBy;
-
-  static BodiesInStep from(auto& take, bool isViscous) {
-    return {.walls = KnownWalls<D>::from(take, 0, isViscous),
-            .newFree = take(requiresNew(c::unfilledVolume, 3)),
-            .swept = take(requiresNew(c::swept<D>, 2)),
-            .sweptBy = take(requiresNew(c::sweptBy<D>, 2))};
-  }
-};
-
-/// What the gas of a cell gives to walls in a step, per cell volume.
-template <int D>
-struct Given {
-  Vec<D> impulse = Vec<D>::Zero();  ///< impulse per volume of the cell [N s/m³]
-  double work = 0;                  ///< work per volume of the cell [J/m³]
-};
-
-/// The smallest fraction of its gas that a donor keeps, so that round-off makes no amount negative.
-inline constexpr double roundOffOfShares = 1e-12;
-/// The volume that follows walls, per cell volume, below which it is round-off. Below the second number, none follows
-/// into a cell without gas: it would bring a trace of gas to one of two mirrored cells, and none to the other.
-inline constexpr double roundOffOfSweeps = 1e-15, roundOffOfEdges = 1e-12;
-/// The volume, per cell volume, of gases in a full cell, in which they keep their fractions.
-inline constexpr double hardlyRoom = 1e-200;
 
 /// Computes the exchange of the gas with walls in a step.
 template <int D>
@@ -110,12 +81,15 @@ class WallExchange {
       for (int side = 0; side < 2; ++side) {
         const Index<D> face = side == 0 ? cell : above;
         const double wall = faces.wall(side);
-        const bool flows = !space_.isAtSide(cell, d, side) && mayFlow(face, d);
-        if (!(wall > 0) && !flows) continue;
+        const bool isAtSide = space_.isAtSide(cell, d, side);
         if (wall > 0) push(cell, d, side, wall, held, given);
-        if (flows) flow(cell, d, side, held, masses);
+        if (isAtSide)
+          flowThroughSide(cell, d, side, held, masses);
+        else if (mayFlow(face, d))
+          flow(cell, d, side, held, masses);
       }
     }
+    if (isHoleAtSide(cell)) equalize(cell, held, masses);
     return given;
   }
 
@@ -199,74 +173,95 @@ class WallExchange {
     const double up = followingUp(above, axis);
     if (up == 0) return;
     const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
-    if (isClosedPore(receiver)) return;
-    std::optional<Gift> gas = isFull(donor) ? passedBy(donor, axis) : givenBy(donor, receiver);
+    const bool isIntoHole = isHoleAtSide(receiver);
+    if (!isIntoHole && isClosedPore(receiver)) return;
+    std::optional<Gift<D>> gas = isHoleAtSide(donor) ? Gift<D>{cells_.contentOf(donor, 1 / roomBefore(donor))}
+                                 : isFull(donor)     ? passedBy(donor, axis)
+                                                     : givenBy(donor, receiver);
     if (!gas) return;
-    if (isFull(receiver) && !space_.isEmpty(donor))
+    if (!isIntoHole && isFull(receiver) && !space_.isEmpty(donor))
       gas->share *= passingAt(receiver).accepted(static_cast<std::size_t>(axis), step_.newFree[receiver]);
-    if (!(gas->share > 0)) return;
+    if (gas->share > 0) give(cell, axis, side, (side == 0 ? up : -up) * gas->share, gas->of, held, masses);
+  }
+  /// Adds a volume of gas, per cell volume, that enters a cell through one of its faces.
+  void give(const Index<D>& cell, int axis, int side, double volume, const Parcel<D>& gas,
+            const euler::MixtureViews<D, double>& held, const euler::FaceMasses<D>& masses) const {
     if (masses.below)
       (side == 0 ? *masses.below : *masses.above)[cell][axis] +=
-          up * gas->share * gas->of.u[euler::kDensity] * level_.spacing(axis) / dt_;
-    const double volume = (side == 0 ? up : -up) * gas->share;
-    held.density[cell] += volume * gas->of.u[euler::kDensity];
-    for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas->of.u[euler::kVelocity(d)];
-    held.totalEnergy[cell] += volume * gas->of.u[euler::kPressure<D>];
+          (side == 0 ? volume : -volume) * gas.u[euler::kDensity] * level_.spacing(axis) / dt_;
+    held.density[cell] += volume * gas.u[euler::kDensity];
+    for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas.u[euler::kVelocity(d)];
+    held.totalEnergy[cell] += volume * gas.u[euler::kPressure<D>];
     const bool isVacuum = space_.isVacuum(cell), isClosed = step_.newFree[cell] < leastFreeVolume;
     for (std::size_t k = 0; k < held.shares.size(); ++k) {
-      held.masses[k][cell] += volume * gas->of.masses[k];
-      if (!isClosed)
-        held.shares[k][cell] += volume * (gas->of.shares[k] - (isVacuum ? 0 : cells_.held.shares[k][cell]));
+      held.masses[k][cell] += volume * gas.masses[k];
+      if (!isClosed) held.shares[k][cell] += volume * (gas.shares[k] - (isVacuum ? 0 : cells_.held.shares[k][cell]));
     }
   }
 
-  /// What a donor gives: its gas, and the fraction of the requested volume that it can give.
-  struct Gift {
-    Parcel<D> of;
-    double share = 1;
-  };
+  /// The volume of gas, per cell volume, that follows bodies out of the grid through an open side; see followingUp. It
+  /// is negative for gas that comes in.
+  double followingOut(const Index<D>& cell, int axis, int side) const {
+    if (!step_.leaving || !space_.isAtSide(cell, axis, side) || level_.cells().extent(axis) < 2) return 0;
+    const bool isFree = !(cells_.free[cell] < 1) && (*step_.leaving)[cell][axis] == 0;
+    if (isFree || !isOpenSide<D>(level_, gas_, cell, axis, side)) return 0;
+    const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
+    const double shift = nodes_.speedsAt(face, axis).after * dt_ * level_.inverseSpacing(axis);
+    const double out = (1 - roomOf(cells_.free[cell])) * (side == 0 ? -shift : shift) - (*step_.leaving)[cell][axis];
+    return std::abs(out) > roundOffOfEdges ? out : 0;
+  }
+  /// Calls `visit(axis, out)` for the sides through which gas follows bodies out of a cell, with the volume.
+  template <class Visit>
+  void forEachLeaving(const Index<D>& cell, Visit&& visit) const {
+    for (std::size_t d = 0; d < D; ++d)
+      for (const int side : {0, 1})
+        if (const double out = followingOut(cell, static_cast<int>(d), side); out != 0) visit(d, out);
+  }
+  /// Lets gas that follows bodies out of the grid leave a cell. Gas that comes in has the state of the cell.
+  void flowThroughSide(const Index<D>& cell, int axis, int side, const euler::MixtureViews<D, double>& held,
+                       const euler::FaceMasses<D>& masses) const {
+    const double out = followingOut(cell, axis, side);
+    if (out == 0 || (out < 0 && isClosedPore(cell)) || isHoleAtSide(cell)) return;
+    const bool full = isFull(cell);
+    std::optional<Gift<D>> gas = out > 0 ? full ? passedBy(cell, axis) : givenBy(cell, cell) : std::nullopt;
+    if (const auto own = out < 0 ? stateOf(cell, cell) : std::nullopt)
+      gas = Gift<D>{*own, full ? passingAt(cell).accepted(static_cast<std::size_t>(axis), step_.newFree[cell]) : 1};
+    if (gas && gas->share > 0) give(cell, axis, side, -out * gas->share, gas->of, held, masses);
+  }
+  /// Whether a cell is a hole with a trace of gas at an open side. It is open to what is beyond, so it gives and takes
+  /// what follows walls.
+  bool isHoleAtSide(const Index<D>& cell) const {
+    if (!step_.leaving || !isFull(cell) || !(cells_.held.density[cell] > 0)) return false;
+    return openSideAt<D>(level_, gas_, cell).isOne() && roomBefore(cell) > leastFreeVolume;
+  }
+  /// The volume of a hole at the start of the step, per cell volume.
+  double roomBefore(const Index<D>& cell) const {
+    double room = step_.newFree[cell];
+    forEachFollowing(cell, [&](int, const Index<D>&, double volume) { room -= volume; });
+    forEachLeaving(cell, [&](std::size_t, double out) { room += out; });
+    return room;
+  }
+  /// Lets gas pass between a hole and what is beyond the side of the grid, so that the gas in it keeps its density.
+  void equalize(const Index<D>& cell, const euler::MixtureViews<D, double>& held,
+                const euler::FaceMasses<D>& masses) const {
+    const Parcel<D> kept = cells_.contentOf(cell, step_.newFree[cell] / roomBefore(cell));
+    const WayOut way = openSideAt<D>(level_, gas_, cell);
+    if (masses.below)
+      (way.direction < 0 ? *masses.below : *masses.above)[cell][way.axis] +=
+          way.direction * (held.density[cell] - kept.u[euler::kDensity]) * level_.spacing(way.axis) / dt_;
+    held.density[cell] = kept.u[euler::kDensity];
+    for (int d = 0; d < D; ++d) held.momentum[cell][d] = kept.u[euler::kVelocity(d)];
+    held.totalEnergy[cell] = kept.u[euler::kPressure<D>];
+    for (std::size_t k = 0; k < held.shares.size(); ++k) {
+      held.masses[k][cell] = kept.masses[k];
+      held.shares[k][cell] = cells_.held.shares[k][cell] * std::max(step_.newFree[cell], hardlyRoom);
+    }
+  }
 
   /// Whether bodies fill a cell at the start of a step, or leave only a hole without gas.
   bool isFull(const Index<D>& cell) const { return cells_.free[cell] < narrowFreeVolume && space_.isEmpty(cell); }
 
-  /// The volumes, per cell volume, that follow walls into and out of a cell that bodies fill, along each axis, and what
-  /// it passes on. It passes on only gas that flows in along other axes, as where a hole moves around an edge. So no
-  /// gas passes straight through a body whose boxes do not move exactly as its walls do.
-  struct Passing {
-    using PerAxis = std::array<double, D>;
-    PerAxis in{}, out{};
-    std::array<PerAxis, D> through{};  ///< volume that flows in along the first axis and out along the second
-
-    /// Divides what flows out among the axes along which gas flows in, in proportion to what these bring.
-    void divide() {
-      for (std::size_t d = 0; d < D; ++d) {
-        double across = 0;
-        for (std::size_t e = 0; e < D; ++e) across += e == d ? 0 : in[e];
-        for (std::size_t e = 0; e < D; ++e)
-          if (e != d && across > 0) through[e][d] = std::min(1.0, out[d] / across) * in[e];
-      }
-      for (std::size_t e = 0; e < D; ++e)
-        if (const double most = passedFrom(e); most > in[e])
-          for (double& volume : through[e]) volume *= in[e] / most;
-    }
-    double passedFrom(std::size_t axis) const {
-      double sum = 0;
-      for (const double volume : through[axis]) sum += volume;
-      return sum;
-    }
-    double passedTo(std::size_t axis) const {
-      double sum = 0;
-      for (const PerAxis& from : through) sum += from[axis];
-      return sum;
-    }
-    /// The fraction of what flows in along an axis that is passed on, or that has room in the cell.
-    double accepted(std::size_t axis, double room) const {
-      double rest = 0;
-      for (std::size_t e = 0; e < D; ++e) rest += in[e] - passedFrom(e);
-      const double passed = passedFrom(axis), kept = rest > room ? std::max(0.0, room) / rest : 1;
-      return (passed + kept * (in[axis] - passed)) / in[axis];
-    }
-  };
+  using Passing = PassingGas<D>;
   /// Calls `visit(axis, neighbour, volume)` for the faces of a cell through which gas follows walls, with the volume
   /// that flows in, per cell volume; it is negative for gas that flows out.
   template <class Visit>
@@ -289,12 +284,13 @@ class WallExchange {
       else if (!space_.isEmpty(neighbour))
         volumes.in[d] += volume;
     });
+    forEachLeaving(cell, [&](std::size_t d, double out) { (out > 0 ? volumes.out : volumes.in)[d] += std::abs(out); });
     volumes.divide();
     return volumes;
   }
   /// What a cell that bodies fill passes on along an axis; it keeps a little, so that round-off leaves nothing
   /// negative.
-  std::optional<Gift> passedBy(const Index<D>& cell, int axis) const {
+  std::optional<Gift<D>> passedBy(const Index<D>& cell, int axis) const {
     const Passing volumes = passingAt(cell);
     const auto d = static_cast<std::size_t>(axis);
     const double passed = volumes.passedTo(d);
@@ -305,19 +301,24 @@ class WallExchange {
       if (volume > 0 && volumes.through[e][d] > 0 && !space_.isEmpty(neighbour))
         mean.add(cells_.parcel(neighbour), volume / volumes.in[e] * volumes.through[e][d] / passed);
     });
-    return Gift{mean, (1 - roundOffOfShares) * passed / volumes.out[d]};
+    forEachLeaving(cell, [&](std::size_t e, double out) {
+      const auto own = out < 0 && volumes.through[e][d] > 0 ? stateOf(cell, cell) : std::nullopt;
+      if (own) mean.add(*own, -out / volumes.in[e] * volumes.through[e][d] / passed);
+    });
+    return Gift<D>{mean, (1 - roundOffOfShares) * passed / volumes.out[d]};
   }
 
   /// What a donor can give. A donor with gas that is mostly free, or one that will be merged with such a neighbour,
   /// gives all that is requested; if it has too little, the neighbour supplies the rest. Any other donor gives gas of
   /// the requested density, but at most all that it has.
-  std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
+  std::optional<Gift<D>> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
     const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
     if (!wanted) return std::nullopt;
-    if (isBesideRoom(donor)) return Gift{*wanted};
+    if (isBesideRoom(donor)) return Gift<D>{*wanted};
     const double mass = cells_.held.density[donor];
     if (!(mass > 0)) return std::nullopt;
-    return Gift{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
+    return Gift<D>{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass),
+                   mass / std::max(mass, massAskedOf(donor))};
   }
   /// The mass that a donor would give through all its faces [kg/m³]. It is an upper estimate: it includes closed pores,
   /// which receive none.
@@ -326,6 +327,9 @@ class WallExchange {
     forEachFollowing(donor, [&](int, const Index<D>& neighbour, double volume) {
       const std::optional<Parcel<D>> gas = volume < 0 ? stateOf(donor, neighbour) : std::nullopt;
       if (gas) mass -= volume * gas->u[euler::kDensity];
+    });
+    forEachLeaving(donor, [&](std::size_t, double out) {
+      if (out > 0) mass += out * cells_.held.density[donor] / cells_.free[donor];
     });
     return (1 + roundOffOfShares) * mass;
   }
@@ -349,9 +353,10 @@ class WallExchange {
   std::optional<Parcel<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
     const double room = space_.isEmpty(donor) ? 0 : roomOf(cells_.free[donor]) / cells_.free[donor];
     if (room == 1) return cells_.parcel(donor);
-    if (!space_.isEmpty(receiver)) return mixed(room, donor, receiver);
-    if (room > 0) return cells_.parcel(donor);
     Parcel<D> sum;
+    if (room > 0) sum.add(cells_.parcel(donor), space_.isEmpty(receiver) ? 1 : room);
+    if (!space_.isEmpty(receiver)) sum.add(cells_.parcel(receiver), 1 - room);
+    if (room > 0 || !space_.isEmpty(receiver)) return sum;
     int count = 0;
     for (int d = 0; d < D; ++d)
       for (int side = 0; side < 2; ++side) {
@@ -365,13 +370,6 @@ class WallExchange {
     Parcel<D> mean;
     mean.add(sum, 1.0 / count);
     return mean;
-  }
-  /// `part` times the state of the cell `of`, plus 1 - `part` times the state of the cell `rest`.
-  Parcel<D> mixed(double part, const Index<D>& of, const Index<D>& rest) const {
-    Parcel<D> sum;
-    if (part > 0) sum.add(cells_.parcel(of), part);
-    sum.add(cells_.parcel(rest), 1 - part);
-    return sum;
   }
 
   /// Whether a cell is a hole in a body: it has little free volume, and no cell up to two cells away is mostly free.

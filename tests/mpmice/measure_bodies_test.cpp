@@ -1,6 +1,6 @@
 #include "tests/mpmice/fields.hpp"
 
-#include "components/mpmice/tasks/measure_bodies.hpp"
+#include "components/mpmice/tasks/measure_motion.hpp"
 
 namespace tushar::mpmice {
 

@@ -73,6 +73,21 @@ class Image:
 MIRRORED, UPSIDE_DOWN, SWAPPED = Image(signs=(-1, 1, 1)), Image(signs=(1, -1, 1)), Image(order=(1, 0, 2))
 
 
+def warm_discs(of):
+    """Two discs that move in gas, which is hot in a part, and exchange heat with it and with each other."""
+    bodies = [of.body(of.disc((.31, .37), .13), 20, (.4, -.2, 0), (4, 4, 1), temperature=.5),
+              of.body(of.disc((.62, .58), .17), 30, (-.3, .1, 0), (4, 4, 1), temperature=2)]
+    gas = of.gas((.2, .3, 0), ((-99, -99, -99), (.4, .6, 99)))
+    return of.scene(((0, 0, 0), (1, 1, .0625), (16, 16, 1)), bodies, gas, periodic=(1, 0, 0),
+                    changes=[("<heat>[0, 0, 0]<", "<heat>[30, 200, 1e15]<")])
+
+
+def open_sides(axes="xy"):
+    """The changes of a scene that open the sides along some axes."""
+    return [(f'<Face side="{axis}{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>', "")
+            for axis in axes for side in "-+"]
+
+
 class Images(SceneTest):
     def assert_alike(self, image, scene_of, *sets):
         """Runs `scene_of(image)` and the scene itself, and compares pressures and velocities at the end."""
@@ -178,6 +193,18 @@ class Images(SceneTest):
             return changed(text, ("<lower>[0,0,0]<", f"<lower>{lower}<"), ("<upper>[1,1,0.02]<", f"<upper>{upper}<"))
 
         self.assert_alike(UPSIDE_DOWN, grain, "Time/maxTime=.4", "Grid/Level/Box/resolution=[25,25,1]")
+
+    def test_of_bodies_that_exchange_heat_differ_by_round_off(self):
+        for image in (MIRRORED, UPSIDE_DOWN, SWAPPED):
+            self.assert_alike(image, warm_discs, "Time/max_Timesteps=5")
+
+    def test_of_bodies_that_leave_the_grid_differ_by_round_off(self):
+        def disc(of):
+            body = of.body(of.disc((.72, .69), .2), 20, (1, .8, 0), (3, 3, 1))
+            return of.scene(((0, 0, 0), (1, 1, .05), (20, 20, 1)), [body], of.gas((.5, .6, 0)), changes=open_sides())
+
+        for image in (MIRRORED, UPSIDE_DOWN, SWAPPED):
+            self.assert_alike(image, disc, "Time/max_Timesteps=25")
 
 
 if __name__ == "__main__":

@@ -1,42 +1,29 @@
 #pragma once
 
-#include "components/ice/mixture/exchange_heat.hpp"
-#include "components/mpm/solid/material.hpp"
-#include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/warm_cells.hpp"
 
 namespace tushar::mpmice {
 
-/// Views of the masses and temperatures of the particles of a material.
-struct WarmBodies {
-  ParticleView<const double> mass;
-  ParticleView<const mpm::solid::Matrix3> deformation;
-  ParticleView<double> temperature;
+/// Views of a body in the heat exchange: what it is, the heat that it receives from neighbouring cells, and its change.
+struct WarmingBody {
+  WarmBody body;
+  CellView<const double> atFaces;
+  CellView<double> warming;
 
-  /// `mass` reads the masses at the end of the step.
-  static WarmBodies from(auto& take, auto mass) {
-    return {.mass = take(mass),
-            .deformation = take(requiresNew(p::deformationMeasure)),
-            .temperature = take(modifies(p::temperature))};
+  static WarmingBody from(auto& take) {
+    return {.body = WarmBody::from(take, 0),
+            .atFaces = take(requiresNew(c::heatOfBodyAtFaces)),
+            .warming = take(computes(c::warming))};
   }
 };
 
-/// Views of the variables of the gas that the heat exchange reads and changes after a step: the energy and, for several
-/// gases, the volume fractions.
-template <int D>
-struct HeatedGas {
-  CellView<const double> free, density;
-  CellView<const Vec<D>> momentum;
-  CellView<double> totalEnergy;
-  std::vector<CellView<const double>> masses;
-  std::vector<CellView<double>> shares;
+/// Views of the heat that each gas receives from neighbouring cells; none if bodies exchange no heat.
+struct GasAtFaces {
+  std::vector<CellView<const double>> heat;
 
-  static HeatedGas from(auto& take, std::size_t gases) {
-    return {.free = take(requiresNew(c::freeVolume)),
-            .density = take(requiresNew(c::density)),
-            .momentum = take(requiresNew(c::momentum<D>)),
-            .totalEnergy = take(modifies(c::totalEnergy)),
-            .masses = viewsOfGases(take, gases, [](std::size_t k) { return requiresNew(c::massOfGas[k]); }),
-            .shares = viewsOfGases(take, gases, [](std::size_t k) { return modifies(c::shareOfGas[k]); })};
+  static GasAtFaces from(auto& take, std::size_t gases) {
+    return {viewsOfGases(take, std::max<std::size_t>(1, gases),
+                         [](std::size_t k) { return requiresNew(c::heatOfGasAtFaces[k]); })};
   }
 };
 
@@ -48,143 +35,118 @@ inline constexpr int kFewThings = 8;
 template <int D, int Most>
 class HeatExchange {
  public:
-  HeatExchange(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
-               const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
-      : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {
+  HeatExchange(const Settings& settings, const WarmGas<D>& gas, const WarmCells<D, Most, WarmGas<D>>& cells)
+      : settings_(settings), gas_(gas), cells_(cells) {
     const auto isStiffened = [](const euler::Settings& one) { return one.gas.pInfinity > 0; };
     are_stiffened_together_ =
         !areBlended(settings) && std::any_of(settings.gases.begin(), settings.gases.end(), isStiffened);
   }
 
-  /// Exchanges heat in a cell, and adds heat from outside. Returns the heat that the gas loses to bodies, per cell
-  /// volume [J/m³].
-  double apply(const Index<D>& cell, double time, double dt) const {
-    const std::size_t bodies = bodies_.size(), gases = std::max<std::size_t>(1, settings_.gases.size());
-    const auto first = static_cast<Eigen::Index>(bodies);
-    ice::WarmThings<Most> things(static_cast<Eigen::Index>(bodies + gases));
-    for (std::size_t m = 0; m < bodies; ++m) addBody(m, cell, things);
-    const int solid = things.present();
-    if (gas_.free[cell] >= leastFreeVolume && gas_.density[cell] > 0) addGas(cell, things);
+  /// Exchanges heat in a cell, and adds heat from outside and through the faces of the cell: `toBodies` and `toGases`.
+  /// Calls `warm(body, change)` with the changes of temperature [K]. Returns the heat that the gas loses to bodies, per
+  /// cell volume [J/m³].
+  template <class Warm>
+  double apply(const Index<D>& cell, double time, double dt, const std::vector<WarmingBody>& toBodies,
+               const GasAtFaces& toGases, Warm&& warm) const {
+    const Eigen::Index first = cells_.bodies();
+    ice::WarmThings<Most> things = cells_.at(cell);
     ice::giveHeat(things, settings_.heating, time, dt, first);
-    gas_.totalEnergy[cell] += things.given.sum();
-    const int present = things.present();
-    if (present < 2) return 0;
-    const auto changes = ice::changesByHeat(things, settings_.heat, dt);
-    for (std::size_t m = 0; m < bodies; ++m) {
-      if (!(things.capacity[m] > 0)) continue;
-      for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += changes.temperature[m];
+    double toGas = things.given.sum(), fromBeside = 0, ofBodies = 0;
+    for (std::size_t k = 0; k < toGases.heat.size(); ++k) {
+      const double heat = toGases.heat[k][cell];
+      things.given[first + static_cast<Eigen::Index>(k)] += heat;
+      fromBeside += heat;
     }
-    const double given = solid > 0 && present > solid ? heatToBodies(things, changes) : 0;
+    toGas += fromBeside;
+    gas_.totalEnergy[cell] += toGas;
+    for (std::size_t m = 0; m < toBodies.size(); ++m) {
+      const double heat = toBodies[m].atFaces[cell];
+      things.given[static_cast<Eigen::Index>(m)] = heat;
+      ofBodies += heat;
+    }
+    const auto solid = static_cast<int>((things.capacity.head(first).array() > 0).count());
+    const int present = things.present();
+    if (present < 2 && solid == 0) return -fromBeside;
+    const auto changes = ice::changesByHeat(things, settings_.heat, dt);
+    const double given = solid > 0 && present > solid ? heatToBodies(things, changes, ofBodies, toGas) : 0;
     gas_.totalEnergy[cell] -= given;
+    if (solid > 0) warmBodies(things, changes, given + ofBodies, warm);
     if (present > solid && !settings_.gases.empty() && !areBlended(settings_))
       ice::changeShares(changes, first, gas_.free[cell],
                         [&](Eigen::Index k) -> double& { return gas_.shares[k][cell]; });
-    return given;
+    return given - fromBeside;
   }
 
  private:
-  /// The heat that bodies receive from gases [J/m³]. It is better known from what the gases gain, because the round-off
-  /// of the heat of bodies may exceed all heat of a trace of gas. Stiffened gases that share a cell are the exception:
-  /// they gain p_inf dV in addition to m c_v dT.
-  double heatToBodies(const ice::WarmThings<Most>& things, const ice::HeatChanges<Most>& changes) const {
-    const auto gained = [&](Eigen::Index from, Eigen::Index end) {
-      double sum = 0;
-      for (Eigen::Index k = from; k < end; ++k)
-        if (things.capacity[k] > 0) sum += things.capacity[k] * changes.temperature[k];
-      return sum;
-    };
-    const auto bodies = static_cast<Eigen::Index>(bodies_.size());
-    return are_stiffened_together_ ? gained(0, bodies) : things.given.sum() - gained(bodies, things.capacity.size());
+  /// The heat that bodies receive from gases of the cell [J/m³], in addition to what is given to bodies and gases. It
+  /// is better known from what the gases gain, because the round-off of the heat of bodies may exceed all heat of a
+  /// trace of gas. Stiffened gases that share a cell are the exception: they gain p_inf dV in addition to m c_v dT.
+  double heatToBodies(const ice::WarmThings<Most>& things, const ice::HeatChanges<Most>& changes, double toBodies,
+                      double toGases) const {
+    const Eigen::Index bodies = cells_.bodies();
+    return are_stiffened_together_ ? gained(things, changes, 0, bodies) - toBodies
+                                   : toGases - gained(things, changes, bodies, things.capacity.size());
   }
-  void addBody(std::size_t m, const Index<D>& cell, ice::WarmThings<Most>& things) const {
-    const double inverse = 1 / patch_.level().cellVolume();
-    double heat = 0;
-    for (const int p : bodies_[m].mass.template in<D>(cell)) {
-      const double capacity = bodies_[m].mass[p] * materials_[m].specificHeat * inverse;
-      things.mass[m] += bodies_[m].mass[p] * inverse;
-      things.capacity[m] += capacity;
-      heat += capacity * bodies_[m].temperature[p];
-      things.volume[m] +=
-          bodies_[m].mass[p] / materials_[m].undeformedDensity() * bodies_[m].deformation[p].determinant() * inverse;
-    }
-    if (things.capacity[m] > 0) things.temperature[m] = heat / things.capacity[m];
+  /// The heat that the things from `begin` to `end` gain by changes of temperature [J/m³].
+  static double gained(const ice::WarmThings<Most>& things, const ice::HeatChanges<Most>& changes, Eigen::Index begin,
+                       Eigen::Index end) {
+    double sum = 0;
+    for (Eigen::Index k = begin; k < end; ++k)
+      if (things.capacity[k] > 0) sum += things.capacity[k] * changes.temperature[k];
+    return sum;
   }
-  void addGas(const Index<D>& cell, ice::WarmThings<Most>& things) const {
-    const auto first = static_cast<Eigen::Index>(bodies_.size());
-    const double free = gas_.free[cell], mass = gas_.density[cell];
-    const double internal = gas_.totalEnergy[cell] - 0.5 * gas_.momentum[cell].squaredNorm() / mass;
-    if (areBlended(settings_)) return addBlend(cell, internal, things);
-    if (!settings_.gases.empty()) {
-      euler::MixedGas mixed;
-      for (std::size_t k = 0; k < settings_.gases.size(); ++k)
-        mixed.add(gas_.shares[k][cell], settings_.gases[k].gas.gamma, settings_.gases[k].gas.pInfinity);
-      const double pressure = mixed.pressure(mass / free, internal / free);
-      for (std::size_t k = 0; k < settings_.gases.size(); ++k)
-        if (gas_.masses[k][cell] > ice::leastPartOfMass * mass)
-          things.setGas(first + static_cast<Eigen::Index>(k), settings_.gases[k].gas, gas_.masses[k][cell],
-                        free * gas_.shares[k][cell], pressure);
-      return;
-    }
-    const euler::Gas& gas = settings_.gas.gas;
-    things.mass[first] = mass;
-    things.capacity[first] = mass * gas.specificHeat;
-    things.temperature[first] = internal / (mass * gas.specificHeat);
-    if (gas.law || gas.pInfinity > 0) things.temperature[first] = gas.temperature(mass / free, internal / free);
-    things.volume[first] = free;
+  /// Calls `warm(body, change)` with the changes of temperature [K]. The round-off of a stiff exchange is divided among
+  /// the bodies, so that together they receive the heat `received` [J/m³].
+  template <class Warm>
+  void warmBodies(const ice::WarmThings<Most>& things, const ice::HeatChanges<Most>& changes, double received,
+                  Warm&& warm) const {
+    const Eigen::Index bodies = cells_.bodies();
+    const double missing = received - gained(things, changes, 0, bodies);
+    const double each = missing / things.capacity.head(bodies).sum();
+    for (Eigen::Index m = 0; m < bodies; ++m)
+      if (things.capacity[m] > 0) warm(m, changes.temperature[m] + each);
   }
 
-  /// Adds gases with laws of their own, which have one temperature; their volumes do not change here.
-  void addBlend(const Index<D>& cell, double internal, ice::WarmThings<Most>& things) const {
-    const auto first = static_cast<Eigen::Index>(bodies_.size());
-    const double free = gas_.free[cell];
-    std::array<double, euler::kMostGases> masses{}, shares{};
-    for (std::size_t k = 0; k < gas_.masses.size(); ++k) {
-      masses[k] = gas_.masses[k][cell] / free;
-      shares[k] = gas_.shares[k][cell];
-    }
-    const euler::Blend blend = settings_.gases.front().blend->at(masses.data(), internal / free, shares.data());
-    for (std::size_t k = 0; k < gas_.masses.size(); ++k) {
-      if (!blend.isPossible || !(gas_.masses[k][cell] > ice::leastPartOfMass * gas_.density[cell])) continue;
-      const auto at = first + static_cast<Eigen::Index>(k);
-      things.mass[at] = gas_.masses[k][cell];
-      things.capacity[at] = things.mass[at] * settings_.gases[k].gas.specificHeat;
-      things.temperature[at] = blend.temperature;
-      things.volume[at] = free * blend.shares[k];
-    }
-  }
-
-  const Patch& patch_;
-  const std::vector<mpm::solid::Material>& materials_;
   const Settings& settings_;
-  const HeatedGas<D>& gas_;
-  const std::vector<WarmBodies>& bodies_;
+  const WarmGas<D>& gas_;
+  const WarmCells<D, Most, WarmGas<D>>& cells_;
   bool are_stiffened_together_;  ///< whether several gases share cells, one of which is stiffened
 };
 
-/// Exchanges heat between bodies and gases. Particles belong to the cell in which they started the step.
+/// Exchanges heat between bodies and gases.
 template <int D, int Most>
 void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
-                  double time, double dt, const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies,
-                  const std::optional<CellView<double>>& heat) {
+                  double time, double dt, const WarmGas<D>& gas, const GasAtFaces& toGases,
+                  const std::vector<WarmingBody>& toBodies, const std::optional<CellView<double>>& heat) {
   if (heat) heat->fill(0);
-  const HeatExchange<D, Most> exchange(patch, materials, settings, gas, bodies);
+  std::vector<WarmBody> bodies;
+  for (const WarmingBody& one : toBodies) {
+    bodies.push_back(one.body);
+    one.warming.fill(0);
+  }
+  const WarmCells<D, Most, WarmGas<D>> cells(materials, settings, gas, bodies);
+  const HeatExchange<D, Most> exchange(settings, gas, cells);
   const bool hasGasAlone = (!settings.gases.empty() && !areBlended(settings)) || settings.heating.acts();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const bool hasBody = std::any_of(bodies.begin(), bodies.end(),
-                                     [&](const WarmBodies& body) { return body.mass.template in<D>(cell).size() > 0; });
-    if (!hasBody && !hasGasAlone) return;
-    const double given = exchange.apply(cell, time, dt);
+    const bool isWarmed = std::any_of(toGases.heat.begin(), toGases.heat.end(),
+                                      [&](const CellView<const double>& ofGas) { return ofGas[cell] != 0; });
+    if (!hasGasAlone && !isWarmed && !cells.hasBody(cell)) return;
+    const double given = exchange.apply(cell, time, dt, toBodies, toGases, [&](Eigen::Index m, double change) {
+      toBodies[static_cast<std::size_t>(m)].warming[cell] = change;
+    });
     if (heat) (*heat)[cell] = given;
   });
 }
 
 /// Exchanges heat between several gases that exchange no heat with bodies.
 template <int D>
-void heatGases(const Patch& patch, const Settings& settings, double time, double dt, const HeatedGas<D>& gas) {
-  const std::vector<WarmBodies> none;
+void heatGases(const Patch& patch, const Settings& settings, double time, double dt, const WarmGas<D>& gas) {
+  const std::vector<WarmBody> none;
   const std::vector<mpm::solid::Material> noMaterials;
-  const HeatExchange<D, euler::kMostGases> exchange(patch, noMaterials, settings, gas, none);
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) { exchange.apply(cell, time, dt); });
+  const WarmCells<D, euler::kMostGases, WarmGas<D>> cells(noMaterials, settings, gas, none);
+  const HeatExchange<D, euler::kMostGases> exchange(settings, gas, cells);
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { exchange.apply(cell, time, dt, {}, {}, [](Eigen::Index, double) {}); });
 }
 
 }  // namespace tushar::mpmice

@@ -45,10 +45,14 @@ using Move = std::array<ParticleBox<D>, 3>;
 template <int D>
 struct MovedBoxes {
   Boxes<D> before, after;
+  std::optional<ParticleView<const Vec<D>>> aheadBefore = {}, ahead = {};  ///< if a side of the grid is open
 
-  static MovedBoxes from(auto& take) {
-    Boxes<D> before = Boxes<D>::from(take, readsOld);
-    return {.before = std::move(before), .after = Boxes<D>::from(take, readsNew)};
+  static MovedBoxes from(auto& take, bool opensAtSides) {
+    Boxes<D> before = Boxes<D>::from(take, readsOld), after = Boxes<D>::from(take, readsNew);
+    return {.before = std::move(before),
+            .after = std::move(after),
+            .aheadBefore = take(when(opensAtSides, requiresOld(p::ahead<D>, boxReach))),
+            .ahead = take(when(opensAtSides, requiresNew(p::ahead<D>, boxReach)))};
   }
   Move<D> of(const mpm::CellFrame<D>& frame, int p) const;
 };
@@ -235,73 +239,6 @@ Move<D> MovedBoxes<D>::of(const mpm::CellFrame<D>& frame, int p) const {
   ParticleBox<D> fresh = after.of(frame, p);
   fresh.middle = withinReach<D>(fresh.middle, old.edges.cwiseMax(fresh.edges));
   return {old, ParticleBox<D>{fresh.middle, old.edges}, fresh};
-}
-
-/// Number of layers of cells around gas in which it may follow walls through faces in a step.
-inline constexpr int sweptReach = 3;
-
-/// Views of the gas at the start of a step, as far as faces matter through which gas may follow walls.
-struct GasNearby : RoomAndMass {
-  static GasNearby from(auto& take) {
-    return {{.free = take(requiresOld(c::freeVolume, sweptReach)), .mass = take(requiresOld(c::density, sweptReach))}};
-  }
-  /// Marks the cells through whose lower faces gas may follow walls.
-  template <int D>
-  CellMarks<D> mark(const Patch& patch) const {
-    CellMarks<D> marks(patch.cells().grown(sweptReach, D));
-    marks.fill(marks.box());
-    const Box rows = rowsWithBodies<D>(marks.box(), sweptReach, false);
-    if (!rows.empty()) markAroundGas(marks, sweptReach, rows);
-    return marks;
-  }
-};
-
-/// Marks the cells of a patch in `needed`, and the cells around them, also outside the patch.
-template <int D>
-CellMarks<D> markAround(const Patch& patch, const CellMarks<D>& needed) {
-  CellMarks<D> marks(patch.cells().grown(boxReach, D));
-  forEachRow<D>(patch.cells(),
-                [&](const Index<D>& first, int count) { std::copy_n(needed.row(first), count, marks.row(first)); });
-  marks.spread(1, marks.box());
-  return marks;
-}
-
-/// Whether a box is only in its cell and the cells around it.
-template <int D>
-bool isClose(const ParticleBox<D>& box) {
-  bool close = true;
-  for (int d = 0; d < D; ++d) close = close && box.middle[d] - box.edges[d] >= -1 && box.middle[d] + box.edges[d] < 2;
-  return close;
-}
-
-/// Measures the bodies at the end of a step, before relocation, and the volume of bodies that passed through faces near
-/// gas. For the latter, each box keeps the shape that it had at the start of the step.
-template <int D>
-void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&, const GasNearby& gas,
-                   const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, const SweptFaces<D>& swept) {
-  const Level& level = patch.level();
-  TakenShares<D> taken(free, BoxImages<D>(level));
-  Sweeps<D> sweeps(swept);
-  const CellMarks<D> needed = gas.mark<D>(patch), around = markAround<D>(patch, needed);
-  for (const MovedBoxes<D>& boxes : materials)
-    forEachCell<D>(level, boxes.before.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, const auto& range) {
-      const bool isNearGas = around(cell);
-      const auto move = [&](const Index<D>& from, const auto& of) {
-        const auto& [before, moved, after] = of;
-        if (isNearGas || !isClose(before) || !isClose(moved)) sweeps.add(from, before, moved);
-        taken.take(from, after);
-      };
-      // A particle that is removed leaves its space free, like a burnt one.
-      const auto remains = [&](int p) { return boxes.after.x[p][0] != data::removed; };
-      for (const int p : range)
-        if (remains(p)) move(cell, boxes.of(frame, p));
-      if (!taken.planes().areNear(cell)) return;
-      for (const int p : range)
-        if (remains(p)) taken.planes().template forEachOf<3>(cell, boxes.of(frame, p), move);
-    });
-  taken.settle();
-  fillOutside<D>(level, free, narrowFreeVolume);
-  sweeps.settle(needed);
 }
 
 }  // namespace tushar::mpmice

@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Heat by exchange coefficients between bodies and gases: the same wherever in a cell a surface is, conserved, and with
+the same bits on any layout."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import gas_and_bodies as fsi
+from fsi_images_test import Image, warm_discs
+from gas_and_bodies import changed
+from same_bits import SameBitsTest
+from solids import SceneTest, globals_of, last_state
+
+PLANE = '<BCType id="all" label="Symmetric" var="symmetry"/>'
+WALL = """
+        <BCType id="1" label="Velocity" var="Dirichlet"><value>[0,0,0]</value></BCType>
+        <BCType id="1" label="Temperature" var="Dirichlet"><value>1</value></BCType>
+        <BCType id="1" label="Pressure" var="Neumann"><value>0</value></BCType>
+      """
+BODY = """<material name="{}"><density>{}</density><constitutive_model type="comp_neo_hook">
+<bulk_modulus>50</bulk_modulus><shear_modulus>25</shear_modulus></constitutive_model><specific_heat>{}</specific_heat>
+<thermal_conductivity>0</thermal_conductivity><geom_object><box label="{}"><min>[{},0,0]</min><max>[{},1,1]</max></box>
+<res>[4,1,1]</res><temperature>{}</temperature></geom_object></material>"""
+
+
+def slab(first, last, cells=20, temperature=2):
+    """A body between two cells, whose numbers may be fractions."""
+    name = f"from{first:g}"
+    return BODY.format(name, 1000, 1, name, first / cells, last / cells, temperature)
+
+
+def line(bodies, heat, *changes):
+    """A line of 20 cells, closed on both sides, with gas of the temperature 1 around bodies at rest."""
+    text = fsi.scene("warm_body").read_text()
+    first, last = text.index('<material name="body">'), text.index("</MPM>\n    <ICE>")
+    momentum = [1e15] * (len(bodies) * (len(bodies) + 1) // 2)
+    return changed(text[:first] + "".join(bodies) + text[last:], (WALL, PLANE), ("<maxTime>30<", "<maxTime>0.05<"),
+                   ("<thermal_conductivity>0.25<", "<thermal_conductivity>0<"), ("[1e15]", str(momentum)),
+                   ("<heat>[1e-6]", f"<heat>{heat}"), ('<save label="GasEnergy"/>', "".join(
+                       f'<save label="{name}"/>' for name in ("GasEnergy", "TotalEnergy", "ThermalEnergy"))), *changes)
+
+
+class Coefficients(SceneTest):
+    def heat_from(self, bodies, heat=(1,), *changes):
+        """Returns the heat that bodies give to the gas, and the relative change of all energy."""
+        found = globals_of(self.scene(line(bodies, list(heat), *changes)), "GasHeatToBodies", "TotalEnergy")
+        energies = [row[1] for row in found["TotalEnergy"]]
+        return -found["GasHeatToBodies"][-1][1], max(abs(one / energies[0] - 1) for one in energies)
+
+    def test_act_wherever_in_a_cell_a_surface_is(self):
+        """H theta_a theta_b is H / 4 in a cell of which a body fills one half, and a plane surface has one such cell.
+        Until 30 November 2026, a surface on a face exchanged no heat."""
+        found = [self.heat_from([slab(6 + shift, 12 + shift)])[0] for shift in (0, .25, .5, .75)]
+        exact = 2 * (1 / 4) * .05 * (2 - 1) * .05  # two surfaces with H = 1, cells of .05 m, 1 K, .05 s
+        for heat in found:
+            self.assertLess(abs(heat / exact - 1), .01, found)
+        self.assertLess(max(found) / min(found) - 1, .005, found)
+
+    def test_act_between_bodies_in_neighbouring_cells(self):
+        """The colder one of two bodies that touch at a face, or within a cell, gets H / 4 of a cell times 1 K."""
+        for shift in (0, .25, .5, .75):
+            scene = self.scene(line([slab(4, 8 + shift, temperature=1), slab(8 + shift, 12)], [1, 0, 0],
+                                    ('<save label="c.density"/>', '<save label="p.temperature"/>')))
+            found = last_state(scene, "p.temperature", material="from4")["p.temperature [K]"]
+            gained = sum(one - 1 for one in found) / len(found) * 1000 * (4 + shift) * .05
+            self.assertLess(abs(gained / (1 / 4 * .05 * .05) - 1), .01, shift)
+
+    def test_conserve_heat(self):
+        for heat in (1, 100, 1e4, 1e15):
+            for shift in (0, .25, .5):
+                given, drift = self.heat_from([slab(6 + shift, 12 + shift)], [heat])
+                self.assertGreater(given, 1e-4)
+                self.assertLess(drift, 1e-14, (heat, shift))
+
+    def test_conserve_heat_of_several_bodies(self):
+        for heat in ([3, 5, 7], [1e15, 1e15, 1e15], [1e15, 0, 2]):
+            drift = self.heat_from([slab(4, 8.5, temperature=1.5), slab(8.5, 12)], heat)[1]
+            self.assertLess(drift, 1e-14, heat)
+
+
+class Bits(SceneTest, SameBitsTest):
+    def test_are_the_same_on_any_layout(self):
+        self.assert_same(self.scene(warm_discs(Image())), 30, ("[1,1,1]", "[4,3,1]", "[8,4,1]"), ranks=3)
+
+
+if __name__ == "__main__":
+    unittest.main()
