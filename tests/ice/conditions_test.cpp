@@ -214,7 +214,11 @@ TEST(IceConditions, AVortexMovesNothingAlongAnAxisWithOneCell) {
 
 TEST(IceConditions, AllowTensionInAStiffenedGas) {
   const std::string water = "<EOS type=\"stiffened_gas\"><p_infinity>2</p_infinity></EOS>";
-  const auto stiff = [&](const std::string& scene) { return changedScene(scene, "<EOS type=\"ideal_gas\"/>", water); };
+  const auto stiff = [&](const std::string& scene) {
+    const std::string module = "<gamma>1.4</gamma>\n      <diaphragm>";
+    return changedScene(changedScene(scene, "<EOS type=\"ideal_gas\"/>", water), module,
+                        "<gamma>1.4</gamma><p_infinity>2</p_infinity><diaphragm>");
+  };
   const auto lodi = [&](const std::string& pressure) {
     return withSide(condition("Pressure", "LODI"), "<LODI><press_infinity>" + pressure + "</press_infinity></LODI>");
   };

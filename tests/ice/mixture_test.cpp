@@ -158,7 +158,7 @@ TEST(IceMixture, RefusesSidesOfOneGas) {
 }
 
 TEST(IceMixture, BeginsWithTheShareOfEachGasInCellsThatASurfaceCuts) {
-  // Water with the density 4 up to x = .7, and air with the density 1 beyond, in four cells; .7 is in the third one.
+  // Water with the density 4 up to x = .6, and air with the density 1 beyond, in four cells; .6 is in the third one.
   const auto gas = [](double from, double to, double density, int points) {
     auto slab = std::make_shared<input::Box>();
     slab->min = Vec3(from, -1, -1);
@@ -175,9 +175,9 @@ TEST(IceMixture, BeginsWithTheShareOfEachGasInCellsThatASurfaceCuts) {
   };
   const Grid grid(euler::closedBox(1, 4));
   for (const int points : {1, 2, 5}) {
-    const Gases gases{gas(-1, 0.7, 4, points), gas(0.7, 2, 1, 1)};
+    const Gases gases{gas(-1, 0.6, 4, points), gas(0.6, 2, 1, 1)};
     const auto start = MixtureStart<1>::in(grid.level(), gases, Index<1>{{2}});
-    const double share = points == 1 ? 1 : points == 2 ? 0.5 : 0.8;  // of the points below .7, from .5 to .75
+    const double share = points == 1 ? 0 : points == 2 ? 0.5 : 0.4;  // of the points below .6, from .5 to .75
     EXPECT_DOUBLE_EQ(start.share[0], share) << points;
     EXPECT_DOUBLE_EQ(start.mass[0], 4 * share);
     EXPECT_DOUBLE_EQ(start.share[1] + share, 1);

@@ -105,8 +105,8 @@ class Hydrostatic(SceneTest):
 
 
 class OpenSides(SceneTest):
-    """A column of gas at rest under gravity, closed below; until 30 November 2026, the pressure of explicit steps had no
-    gradient at the open side, so that gas poured in: at .4 m/s and more, on any grid."""
+    """A column of gas at rest under gravity, closed below. Until 30 November 2026, the pressure of explicit steps had
+    no gradient at the open side, so that gas poured in: at .4 m/s and more, on any grid."""
 
     WAVES = "".join(f'<BCType id="all" label="{name}" var="LODI"/>' for name in ("Pressure", "Velocity"))
 

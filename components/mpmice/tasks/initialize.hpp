@@ -74,9 +74,9 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
   });
 }
 
-/// The initial gases of a cell: those in it or, if there are none at its centre, at the nearest cell centre that has gas,
-/// since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, if there is none at this
-/// one, although no body is near, or if the gases do not fill the cell.
+/// The initial gases of a cell: those in it or, if there are none at its centre, at the nearest cell centre that has
+/// gas, since scenes cut out the shapes of bodies. Throws InputError if no cell centre has gas, if there is none at
+/// this one, although no body is near, or if the gases do not fill the cell.
 template <int D>
 ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, CellView<const double> free,
                              const Index<D>& cell) {
