@@ -329,8 +329,7 @@ class FaceFlow : public GasBefore<D, K> {
       using Number = decltype(number);
       const auto at = [&](int axis) { return this->old().component(euler::kVelocity(axis)) + first + i; };
       std::array<Number, D> ratios;
-      for (int d = 0; d < D; ++d)
-        ratios[d] = dt_ * this->level().inverseSpacing(d) * euler::numberAt<Number>(at(d));
+      for (int d = 0; d < D; ++d) ratios[d] = dt_ * this->level().inverseSpacing(d) * euler::numberAt<Number>(at(d));
       for (int k = 0; k < D; ++k) {
         const double* v = at(k);
         const auto middle = euler::numberAt<Number>(v);

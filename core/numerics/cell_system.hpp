@@ -148,8 +148,7 @@ class CellSystem {
   template <class Visit>
   void forEachRow(Visit&& visit) const {
     for (std::size_t p = 0; p < patches_.size(); ++p)
-      grid::forEachRow<D>(patches_[p]->cells(),
-                          [&](const Index<D>& first, int count) { visit(p, first, count); });
+      grid::forEachRow<D>(patches_[p]->cells(), [&](const Index<D>& first, int count) { visit(p, first, count); });
   }
   template <class Visit>
   void forEachCell(Visit&& visit) const {

@@ -14,8 +14,7 @@ template <int D, class Held, class T>
 bool isPossible(const std::vector<Settings>& gases, const std::vector<Held>& held, const StateViews<D, T>& state,
                 const Index<D>& cell) {
   const double energy = internalEnergyIn<D>(state, cell);
-  if (gases.front().blend)
-    return state.density[cell] > 0 && blendAt(gases, held, energy, cell).isPossible;
+  if (gases.front().blend) return state.density[cell] > 0 && blendAt(gases, held, energy, cell).isPossible;
   const Gas alike = mixedAt(gases, held, cell).alike();
   return canBe<D>(alike, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
 }

@@ -205,8 +205,8 @@ void addFluxesOfEach(double ratio, const Index<D>& first, int count, const Mixtu
   }
 }
 
-/// Adds the net inflow along an axis: for the first axis, to the old state; for the others, to the new one. `areBlended`
-/// is that of the gas.
+/// Adds the net inflow along an axis: for the first axis, to the old state; for the others, to the new one.
+/// `areBlended` is that of the gas.
 template <int D, int Axis, int K>
 void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
                const ViewsOf<D, K, double>& fresh, [[maybe_unused]] bool areBlended = false) {

@@ -21,11 +21,12 @@ struct Spacing {
   }
 };
 
-/// Computes the fluxes along an axis through the lower face of the cell at position `i` or, for Lanes, of the cells that
-/// begin there.
+/// Computes the fluxes along an axis through the lower face of the cell at position `i` or, for Lanes, of the cells
+/// that begin there.
 template <int D, class Number = double>
-[[gnu::always_inline]] inline State<D, 1, Number> diffusiveFluxAt(const Diffusion& diffusion, const typename Rows<D>::Pointers& w, const Spacing<D>& by,
-                         int axis, std::ptrdiff_t i) {
+[[gnu::always_inline]] inline State<D, 1, Number> diffusiveFluxAt(const Diffusion& diffusion,
+                                                                  const typename Rows<D>::Pointers& w,
+                                                                  const Spacing<D>& by, int axis, std::ptrdiff_t i) {
   const std::ptrdiff_t below = i - by.stride[axis];
   const auto number = [](const double* of, std::ptrdiff_t at) { return numberAt<Number>(of + at); };
   State<D, 1, Number> flux{};
@@ -41,8 +42,7 @@ template <int D, class Number = double>
              ((number(of, i + next) - number(of, i - next)) + (number(of, below + next) - number(of, below - next)));
     };
     others += slope(v);
-    flux[kVelocity(k)] =
-        -diffusion.viscosity * ((number(v, i) - number(v, below)) * by.inverse[axis] + slope(normal));
+    flux[kVelocity(k)] = -diffusion.viscosity * ((number(v, i) - number(v, below)) * by.inverse[axis] + slope(normal));
   }
   flux[kVelocity(axis)] = -diffusion.viscosity * (2 * along - 2.0 / 3 * (along + others));
   Number energy =

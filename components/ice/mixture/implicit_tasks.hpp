@@ -77,12 +77,13 @@ void solveMixedPressure(const RankPatches& patches, const mpi::Communicator& ran
     const Box cells = patches[p]->cells();
     flows.emplace_back(level, lawsOfShares, gas.method, settings, rules, cells, dt).hold(cells, before[p].views());
   }
-  solveForChange<D>(
-      patches, ranks, settings, flows, guess, fresh, totals, [](std::size_t, const Index<D>&) { return false; },
+  const ChangeEquations equations{
+      [](std::size_t, const Index<D>&) { return false; },
       [&](std::size_t p, const Index<D>& cell) { return equationByLaw<D>(level, flows[p], cell, dt); },
       [&](std::size_t p, const Index<D>& cell) {
         return stiffPressureIn(flows[p], cell) * softnessIn(flows[p], cell);
-      });
+      }};
+  solveForChange<D>(patches, ranks, settings, flows, guess, fresh, totals, equations);
 }
 
 /// Calls `use(laws)` with the laws of two or three gases.

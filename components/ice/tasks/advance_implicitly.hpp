@@ -148,8 +148,8 @@ class ImplicitStep {
       old[k] = select(isFromBelow, below, above);
       w[k] = select(isFromBelow, at(middle_, k, place - step), at(middle_, k, place));
       if (!flow_.hasSlopes()) continue;
-      const Number outer = select(isFromBelow, below - at(flow_.old(), k, place - 2 * step),
-                                  at(flow_.old(), k, place + step) - above);
+      const Number outer =
+          select(isFromBelow, below - at(flow_.old(), k, place - 2 * step), at(flow_.old(), k, place + step) - above);
       const Number half = VanLeer::half(above - below, outer);
       w[k] = select(isFromBelow, w[k] + half, w[k] - half);
     }
@@ -293,8 +293,7 @@ double advanceBlockImplicitly(const Level& level, const Box& block, const euler:
     Box faces = block;
     ++faces.upper[Axis];
     most = std::max(most, step.computeFluxes(faces, Axis));
-    euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh,
-                              step.areBlended());
+    euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh, step.areBlended());
     step.addGravity(block, Axis, fresh);
     masses.keep(block, Axis, step.flux());
   };

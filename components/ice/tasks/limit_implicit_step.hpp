@@ -15,15 +15,27 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { pressure[cell] = euler::pressureIn(gas, state, cell); });
 }
 
-/// The rates of PushedGas in cells that no side of the grid touches, for several cells at once.
+/// The rates of PushedGas in cells.
 template <int D, int K, class DiffusionAt>
-class RatesInside {
+class ImplicitRates {
  public:
-  RatesInside(const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing, double soundSpeedKnob,
-              const DiffusionAt& diffusionAt)
+  ImplicitRates(const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing, double soundSpeedKnob,
+                const DiffusionAt& diffusionAt)
       : gas_(gas), pushing_(pushing), knob_(soundSpeedKnob), diffusion_at_(diffusionAt) {}
 
-  /// The greatest rate of a row of at least Lanes::count cells.
+  /// Those of a cell.
+  PushedGas<D> of(const Index<D>& cell) const {
+    const double sound = knob_ * gas_.soundSpeed(cell);
+    PushedGas<D> crossed;
+    for (int d = 0; d < D; ++d) {
+      const double perWidth = gas_.level().inverseSpacing(d);
+      crossed.flow[d] = (speed(cell, d) + sound) * perWidth;
+      crossed.diffusion[d] = diffusion_at_(cell, d);
+      crossed.push[d] = perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
+    }
+    return crossed;
+  }
+  /// The greatest rate of a row of at least Lanes::count cells that no side of the grid touches.
   double greatest(const Index<D>& row, int count, const euler::CrossingRate<D>& crossing) const {
     const std::ptrdiff_t first = gas_.old().offsetOf(row);
     Lanes most = 0.0;
@@ -37,6 +49,22 @@ class RatesInside {
   }
 
  private:
+  /// The greatest of the speeds of a cell and of those prescribed at its faces along an axis [m/s].
+  double speed(const Index<D>& cell, int axis) const {
+    double most = std::abs(gas_.old().number(cell, euler::kVelocity(axis)));
+    for (const Index<D>& face : {cell, cell + Index<D>::unit(axis)})
+      if (gas_.isOnSide(face, axis))
+        if (const auto given = gas_.givenVelocity(face, axis)) most = std::max(most, std::abs(*given));
+    return most;
+  }
+  /// |a_d| at a face [m/s²].
+  double acceleration(const Index<D>& face, int axis) const {
+    const double second = 1, gained = gas_.mobility(face, axis, second);
+    if (gained == 0) return 0;
+    const double* above = pushing_.component(euler::kPressure<D>) + pushing_.offsetOf(face);
+    const double rise = above[0] - above[-pushing_.stride(axis)];
+    return std::abs(gas_.acceleration(axis, gas_.density(face, axis)) - gained * rise);
+  }
   PushedGas<D, Lanes> ratesOf(const Index<D>& cell, std::ptrdiff_t place) const {
     const Lanes sound = knob_ == 0 ? Lanes(0.0) : knob_ * soundSpeeds(cell, place);
     PushedGas<D, Lanes> crossed;
@@ -92,51 +120,19 @@ template <int D, int K, class DiffusionAt>
 double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing,
                             double soundSpeedKnob, const euler::Courant& courant, const DiffusionAt& diffusionAt) {
   const euler::CrossingRate<D> crossing(courant);
-  const Level& level = patch.level();
-  const double second = 1;
-  const std::size_t p = euler::kPressure<D>;
-  const auto acceleration = [&](const Index<D>& face, int axis) {
-    const double gained = gas.mobility(face, axis, second);
-    if (gained == 0) return 0.0;
-    const double* above = pushing.component(p) + pushing.offsetOf(face);
-    const double rise = above[0] - above[-pushing.stride(axis)];
-    return std::abs(gas.acceleration(axis, gas.density(face, axis)) - gained * rise);
-  };
-  const auto speed = [&](const Index<D>& cell, int axis) {
-    double most = std::abs(gas.old().number(cell, euler::kVelocity(axis)));
-    for (const Index<D>& face : {cell, cell + Index<D>::unit(axis)})
-      if (gas.isOnSide(face, axis))
-        if (const auto given = gas.givenVelocity(face, axis)) most = std::max(most, std::abs(*given));
-    return most;
-  };
+  const ImplicitRates<D, K, DiffusionAt> rates(gas, pushing, soundSpeedKnob, diffusionAt);
   double greatest = 0;
-  const auto alone = [&](const Index<D>& cell) {
-    const double sound = soundSpeedKnob * gas.soundSpeed(cell);
-    PushedGas<D> crossed;
-    for (int d = 0; d < D; ++d) {
-      const double perWidth = level.inverseSpacing(d);
-      crossed.flow[d] = (speed(cell, d) + sound) * perWidth;
-      crossed.diffusion[d] = diffusionAt(cell, d);
-      crossed.push[d] = perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
-    }
-    greatest = std::max(greatest, crossed.rate(crossing));
-  };
-  const RatesInside<D, K, DiffusionAt> inside(gas, pushing, soundSpeedKnob, diffusionAt);
   grid::forEachRow<D>(patch.cells(), [&](Index<D> first, int count) {
-    bool isAtSide = count < Lanes::count;
+    bool isAtSide = count < Lanes::count + 2;
     for (int d = 1; d < D; ++d) isAtSide |= gas.isSide(first[d], d) || gas.isSide(first[d] + 1, d);
     const int end = first[0] + count;
-    if (!isAtSide && !gas.isSide(first[0], 0) && !gas.isSide(end, 0)) {
-      greatest = std::max(greatest, inside.greatest(first, count, crossing));
-      return;
-    }
-    if (!isAtSide && count > Lanes::count + 2) {
-      alone(first);
+    if (!isAtSide) {  // cells between the first and the last one
       ++first[0];
-      greatest = std::max(greatest, inside.greatest(first, count - 2, crossing));
-      first[0] = end - 1;
+      greatest = std::max(greatest, rates.greatest(first, count - 2, crossing));
+      --first[0];
     }
-    for (; first[0] < end; ++first[0]) alone(first);
+    const int step = isAtSide ? 1 : count - 1;
+    for (; first[0] < end; first[0] += step) greatest = std::max(greatest, rates.of(first).rate(crossing));
   });
   return greatest;
 }

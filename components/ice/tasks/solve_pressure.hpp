@@ -189,16 +189,28 @@ double stiffPressureIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
     return euler::lawIn<D>(flow.gas(), w).heat(w[euler::kDensity], w[euler::kPressure<D>]);
 }
 
-/// Solves for the change of pressure in the step [Pa] in all cells where isEmpty(p, cell) is false, given the state
-/// that the flow of each patch contains, and computes the pressure at the end. The initial guess is the pressure at the
-/// end of the previous step. The residual measures by how much the gas would miss the computed pressure, in the unit of
-/// the equation. Therefore, the tolerance is relative to the largest pressure in that unit, `scaleOf(p, cell)`, or to
-/// the right-hand side if it is larger. Throws NumericalError if the solver fails.
-template <int D, int K, class IsEmpty, class EquationOf, class ScaleOf, class FillRow = numerics::NoRows>
+/// The equations for the changes of pressures: functions of a patch, by its number on the rank, and of a cell.
+template <class IsEmpty, class EquationOf, class ScaleOf, class FillRow = numerics::NoRows>
+struct ChangeEquations {
+  IsEmpty isEmpty;        ///< whether the pressure does not change, since there is no gas
+  EquationOf equationOf;  ///< the equation
+  ScaleOf scaleOf;        ///< the pressure, in the unit of the equation
+  FillRow fillRow = {};   ///< see CellSystem::solve
+};
+template <class IsEmpty, class EquationOf, class ScaleOf>
+ChangeEquations(IsEmpty, EquationOf, ScaleOf) -> ChangeEquations<IsEmpty, EquationOf, ScaleOf>;
+template <class IsEmpty, class EquationOf, class ScaleOf, class FillRow>
+ChangeEquations(IsEmpty, EquationOf, ScaleOf, FillRow) -> ChangeEquations<IsEmpty, EquationOf, ScaleOf, FillRow>;
+
+/// Solves for the change of pressure in the step [Pa], given the state that the flow of each patch contains, and
+/// computes the pressure at the end. The initial guess is the pressure at the end of the previous step. The residual
+/// measures by how much the gas would miss the computed pressure, in the unit of the equation. Therefore, the tolerance
+/// is relative to the largest pressure in that unit, or to the right-hand side if it is larger. Throws NumericalError
+/// if the solver fails.
+template <int D, int K, class Equations>
 void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
                     const std::vector<FaceFlow<D, K>>& flows, const std::vector<CellView<const double>>& guess,
-                    const std::vector<PressureViews>& fresh, const SolveTotals& totals, IsEmpty&& isEmpty,
-                    EquationOf&& equationOf, ScaleOf&& scaleOf, const FillRow& fillRow = {}) {
+                    const std::vector<PressureViews>& fresh, const SolveTotals& totals, const Equations& equations) {
   const auto old = [&](std::size_t p, const Index<D>& cell) {
     return flows[p].old().number(cell, euler::kPressure<D>);
   };
@@ -208,15 +220,14 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const CellView<double>& change = changes.emplace_back(fresh[p].change);
     forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
-      change[cell] = isEmpty(p, cell) ? 0 : guess[p][cell] - old(p, cell);
-      greatest = std::max(greatest, std::abs(scaleOf(p, cell)));
+      change[cell] = equations.isEmpty(p, cell) ? 0 : guess[p][cell] - old(p, cell);
+      greatest = std::max(greatest, std::abs(equations.scaleOf(p, cell)));
     });
     first.emplace_back(change.values(), change.stored(), change.box());
   }
-  const double cells = static_cast<double>(patches.front()->level().cells().size());
+  const double scale = ranks.max(greatest) * std::sqrt(static_cast<double>(patches.front()->level().cells().size()));
   numerics::CellSystem<D> system(patches, ranks);
-  const solvers::Outcome outcome =
-      system.solve(settings.solver, first, equationOf, ranks.max(greatest) * std::sqrt(cells), fillRow);
+  const solvers::Outcome outcome = system.solve(settings.solver, first, equations.equationOf, scale, equations.fillRow);
   system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
                             ", or a smaller <delt_max>");
   system.take(changes);
@@ -240,20 +251,21 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
   for (std::size_t p = 0; p < patches.size(); ++p)
     flows.emplace_back(level, method, settings, rules, patches[p]->cells(), dt).hold(patches[p]->cells(), before[p]);
   const auto none = [](std::size_t, const Index<D>&) { return false; };
-  if (method.gas.law)
-    return solveForChange<D>(
-        patches, ranks, settings, flows, guess, fresh, totals, none,
-        [&](std::size_t p, const Index<D>& cell) { return equationByLaw<D>(level, flows[p], cell, dt); },
+  if (method.gas.law) {
+    const ChangeEquations equations{
+        none, [&](std::size_t p, const Index<D>& cell) { return equationByLaw<D>(level, flows[p], cell, dt); },
         [&](std::size_t p, const Index<D>& cell) {
           return stiffPressureIn(flows[p], cell) * softnessIn(flows[p], cell);
-        });
-  solveForChange<D>(
-      patches, ranks, settings, flows, guess, fresh, totals, none,
-      [&](std::size_t p, const Index<D>& cell) { return pressureEquation<D>(level, flows[p], cell, dt); },
+        }};
+    return solveForChange<D>(patches, ranks, settings, flows, guess, fresh, totals, equations);
+  }
+  const ChangeEquations equations{
+      none, [&](std::size_t p, const Index<D>& cell) { return pressureEquation<D>(level, flows[p], cell, dt); },
       [&](std::size_t p, const Index<D>& cell) { return stiffPressureIn(flows[p], cell); },
       [&](std::size_t p, const Index<D>& row, int count, const solvers::BoxRow<D>& to) {
         fillPressureEquations<D>(flows[p], row, count, dt, to);
-      });
+      }};
+  solveForChange<D>(patches, ranks, settings, flows, guess, fresh, totals, equations);
 }
 
 }  // namespace tushar::ice

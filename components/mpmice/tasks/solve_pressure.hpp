@@ -227,8 +227,7 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
         .hold(patches[p]->cells(), gas[p].alone.state);
     spaces.emplace_back(level, settings, cells[p]);
   }
-  ice::solveForChange<D>(
-      patches, ranks, *settings.implicit, flows, guess, fresh, totals,
+  const ice::ChangeEquations equations{
       [&](std::size_t p, const Index<D>& cell) {
         const double roundOff = 1e-12 * (pressureOfNothing + settings.gas.gas.pInfinity);
         const bool wasEmpty = std::abs(guess[p][cell] - pressureOfNothing) < roundOff;
@@ -240,7 +239,8 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
       },
       [&](std::size_t p, const Index<D>& cell) {
         return spaces[p].isEmpty(cell) ? 0.0 : ice::stiffPressureIn(flows[p], cell);
-      });
+      }};
+  ice::solveForChange<D>(patches, ranks, *settings.implicit, flows, guess, fresh, totals, equations);
 }
 
 /// Computes the pressure of the gas on walls. It is the pressure at the end of the step; for approaching walls, the
