@@ -62,6 +62,14 @@ class WarmCells {
   }
   Eigen::Index bodies() const { return static_cast<Eigen::Index>(bodies_.size()); }
   std::size_t gases() const { return std::max<std::size_t>(1, settings_.gases.size()); }
+  /// The body that fills more than half of a cell, if there is one; otherwise -1.
+  Eigen::Index bodyThatFills(const Index<D>& cell) const {
+    double filled = 0;
+    for (const WarmBody& body : bodies_) filled += body.volume[cell];
+    for (std::size_t m = 0; m < bodies_.size(); ++m)
+      if ((1 - gas_.free[cell]) * (bodies_[m].volume[cell] / filled) > 0.5) return static_cast<Eigen::Index>(m);
+    return -1;
+  }
   bool hasBody(const Index<D>& cell) const {
     return std::any_of(bodies_.begin(), bodies_.end(), [&](const WarmBody& body) { return body.capacity[cell] > 0; });
   }

@@ -51,7 +51,10 @@ class HeatAtFaces {
     const Index<D> next = beside(cell, axis, side);
     if (!isInGrid(next, axis)) return false;
     const bool isFilled = gas_.free[cell] < 0.5, isNextFilled = gas_.free[next] < 0.5;
-    return isFilled != isNextFilled || (isFilled && cells_.bodies() > 1);
+    if (isFilled != isNextFilled) return true;
+    if (!isFilled || cells_.bodies() == 1) return false;
+    const Eigen::Index own = cells_.bodyThatFills(cell), other = cells_.bodyThatFills(next);
+    return own >= 0 && other >= 0 && own != other;
   }
   Vector through(const Index<D>& cell, const ice::WarmThings<Most>& own, int axis, int side) const {
     Vector heat = Vector::Zero(own.capacity.size());

@@ -33,6 +33,15 @@ class Followers {
   Followers(const Level& level, const euler::Gas& gas, const Boxes<D>& boxes)
       : level_(level), gas_(gas), boxes_(boxes) {}
 
+  /// Whether particles that started the step in a cell may follow others.
+  bool areNear(const Index<D>& cell) const {
+    constexpr int far = 2 * boxReach + 1;  // one and a half edges and a step
+    bool near = false;
+    for (int d = 0; d < D; ++d)
+      near |= !level_.isPeriodic(d) &&
+              (cell[d] < level_.cells().lower[d] + far || cell[d] >= level_.cells().upper[d] - far);
+    return near;
+  }
   /// The new value of p.ahead of a particle that started the step in a cell, given the value before.
   Vec<D> aheadOf(const Index<D>& cell, int p, const Vec<D>& before) const {
     Vec<D> ahead = Vec<D>::Zero();
@@ -83,7 +92,8 @@ void findFollowers(const Patch& patch, const mpm::solid::Material&, const Settin
                    ParticleView<const Vec<D>> before, ParticleView<Vec<D>> ahead) {
   const Followers<D> followers(patch.level(), settings.gas.gas, boxes);
   boxes.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
-    for (const int p : range) ahead[p] = followers.aheadOf(cell, p, before[p]);
+    const bool areNear = followers.areNear(cell);
+    for (const int p : range) ahead[p] = areNear ? followers.aheadOf(cell, p, before[p]) : Vec<D>::Zero();
   });
 }
 
