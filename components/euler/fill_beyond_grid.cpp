@@ -46,17 +46,21 @@ double soundSpeedSquaredIn(const GhostRule<D>& rule, const std::array<double, N>
 /// halves, it remains positive.
 constexpr double greatestFall = 0.25;
 
-/// Raises the pressure of a state. If it depends on the density alone, the temperature stays.
+/// Raises the pressure of a state, at constant entropy to first order: with the density of the cell, gas that flows in
+/// would be colder in each step. It compresses all gases of a cell by the same factor. If the pressure depends on the
+/// density alone, the temperature stays.
 template <int D, std::size_t N>
 void raise(const GhostRule<D>& rule, double rise, std::array<double, N>& w) {
   const double density = w[kDensity], squared = soundSpeedSquaredIn<D>(rule, w);
   const double limited = std::max(rise, -greatestFall * density * squared);
-  if (kGasesIn<D, N> == 1 && rule.gas->isBarotropic()) {
-    w[kDensity] += limited / squared;
+  constexpr int K = kGasesIn<D, N>;
+  w[kDensity] += limited / squared;
+  if constexpr (K > 1)
+    for (int k = 0; k < K; ++k) w[kMass<D>(k)] *= w[kDensity] / density;
+  if (K == 1 && rule.gas->isBarotropic())
     w[kPressure<D>] *= w[kDensity] / density;
-  } else {
+  else
     w[kPressure<D>] += limited;
-  }
 }
 
 /// Weakens the incoming wave in a state, at constant entropy, to let waves out; the wave decays over `cells` cells. It

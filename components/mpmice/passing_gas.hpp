@@ -4,6 +4,7 @@
 #include <array>
 
 #include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/open_sides.hpp"
 
 namespace tushar::mpmice {
 
@@ -13,6 +14,15 @@ struct Gift {
   Parcel<D> of;
   double share = 1;
 };
+
+/// Whether more gas than there was has left a cell at an open side, as round-off may have it where bodies fill the
+/// cell.
+template <int D>
+bool isOverdrawnAtSide(const Level& level, const euler::Gas& gas, const euler::MixtureViews<D, double>& held,
+                       const Index<D>& cell) {
+  const bool isFine = held.density[cell] > 0 && euler::internalEnergyIn<D>(held, cell) >= 0;
+  return !isFine && openSideAt<D>(level, gas, cell).isOne();
+}
 
 /// The volumes, per cell volume, that follow walls into and out of a cell that bodies fill, along each axis, and what
 /// it passes on. It passes on only gas that flows in along other axes, as where a hole moves around an edge. So no

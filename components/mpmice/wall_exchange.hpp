@@ -89,7 +89,10 @@ class WallExchange {
           flow(cell, d, side, held, masses);
       }
     }
-    if (isHoleAtSide(cell)) equalize(cell, held, masses);
+    if (isHoleAtSide(cell))
+      equalize(cell, cells_.contentOf(cell, step_.newFree[cell] / roomBefore(cell)), held, masses);
+    else if (step_.leaving && step_.newFree[cell] < leastFreeVolume && isOverdrawnAtSide<D>(level_, gas_, held, cell))
+      equalize(cell, {}, held, masses);
     return given;
   }
 
@@ -241,10 +244,9 @@ class WallExchange {
     forEachLeaving(cell, [&](std::size_t, double out) { room += out; });
     return room;
   }
-  /// Lets gas pass between a hole and what is beyond the side of the grid, so that the gas in it keeps its density.
-  void equalize(const Index<D>& cell, const euler::MixtureViews<D, double>& held,
+  /// Lets gas pass between a cell and what is beyond the side of the grid, so that the cell contains what is `kept`.
+  void equalize(const Index<D>& cell, const Parcel<D>& kept, const euler::MixtureViews<D, double>& held,
                 const euler::FaceMasses<D>& masses) const {
-    const Parcel<D> kept = cells_.contentOf(cell, step_.newFree[cell] / roomBefore(cell));
     const WayOut way = openSideAt<D>(level_, gas_, cell);
     if (masses.below)
       (way.direction < 0 ? *masses.below : *masses.above)[cell][way.axis] +=

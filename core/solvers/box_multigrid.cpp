@@ -28,20 +28,43 @@ CellBox nextBox(const BoxStencil<double>& matrix, std::array<int, 3>& ratio) {
   return box;
 }
 
-/// Sets the matrix of the next level. What links do not balance of the diagonal is added up.
+/// What links do not balance of each diagonal entry: terms of the cell itself, and links to given values at sides.
+std::vector<double> unlinked(const BoxStencil<double>& matrix) {
+  const BoxShape& shape = matrix.shape;
+  std::vector<double> rest(shape.stored());
+  shape.forEachCell([&](std::ptrdiff_t at) {
+    rest[at] = matrix.diagonal[at];
+    for (int d = 0; d < 3; ++d) rest[at] -= matrix.links[d][at] + matrix.links[d][at - shape.stride(d)];
+  });
+  return rest;
+}
+
+/// The part of `rest` of a cell that links to sides, along axes on which cells become coarser: what it has more than
+/// the next cell inwards.
+double linkedToSides(const BoxShape& shape, const std::array<int, 3>& ratio, const std::vector<double>& rest,
+                     const std::array<int, 3>& cell, std::ptrdiff_t at) {
+  double more = 0;
+  for (int d = 0; d < 3; ++d) {
+    if (ratio[d] == 1 || shape.box().isPeriodic[d]) continue;
+    if (cell[d] == 0) more += std::max(0.0, rest[at] - rest[at + shape.stride(d)]);
+    if (cell[d] + 1 == shape.extent(d)) more += std::max(0.0, rest[at] - rest[at - shape.stride(d)]);
+  }
+  return std::clamp(more, 0.0, std::max(0.0, rest[at]));
+}
+
+/// Sets the matrix of the next level. Links to sides get half as strong, like others; otherwise, coarse levels would
+/// correct too little there, and each halving of the cells would take further iterations.
 void takeCoarser(const BoxStencil<double>& fine, const std::array<int, 3>& ratio, BoxStencil<double>& coarse) {
   const BoxShape &shape = fine.shape, &to = coarse.shape;
+  const std::vector<double> rest = unlinked(fine);
   for (int z = 0; z < shape.extent(2); ++z)
     for (int y = 0; y < shape.extent(1); ++y)
       for (int x = 0; x < shape.extent(0); ++x) {
         const std::array<int, 3> cell{x, y, z};
         const std::ptrdiff_t at = shape.offset(x, y, z), into = to.offset(x / ratio[0], y / ratio[1], z / ratio[2]);
-        coarse.diagonal[into] += fine.diagonal[at];
-        for (int d = 0; d < 3; ++d) {
-          const double above = fine.links[d][at];
-          coarse.diagonal[into] -= above + fine.links[d][at - shape.stride(d)];
-          if (isLastOf(ratio[d], cell[d], shape.extent(d))) coarse.links[d][into] += above / ratio[d];
-        }
+        coarse.diagonal[into] += rest[at] - 0.5 * linkedToSides(shape, ratio, rest, cell, at);
+        for (int d = 0; d < 3; ++d)
+          if (isLastOf(ratio[d], cell[d], shape.extent(d))) coarse.links[d][into] += fine.links[d][at] / ratio[d];
       }
   coarse.close();
   to.forEachCell([&](std::ptrdiff_t at) {

@@ -36,8 +36,9 @@ struct BoxRow {
   }
 };
 
-/// Replaces the initial guess x by the solution. Returns nothing, and leaves an arbitrary x, if the matrix is not
-/// positive definite, or not symmetric. `worst` of the outcome counts cells, the first axis fastest.
+/// Replaces the initial guess x by the solution. Returns nothing, and leaves an arbitrary x, if others must try: if the
+/// matrix is not positive definite or nearly singular, or its numbers differ by too many orders of magnitude. `worst`
+/// of the outcome counts cells, the first axis fastest.
 std::optional<Outcome> solve(BoxSystem& system, const LinearSettings& settings);
 
 }  // namespace tushar::solvers

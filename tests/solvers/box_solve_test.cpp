@@ -205,6 +205,25 @@ TEST(BoxSolve, KeepsAGuessThatIsPreciseForTheScale) {
   EXPECT_EQ(solve(system, {"cg", "multigrid", 1e-10, 3, ""})->krylovIterations, 0);
 }
 
+TEST(BoxSolve, LeavesHugeJumpsAndNearlySingularMatricesToOthers) {
+  BoxSystem jumps = Equations{.box = {{40, 40, 1}, {}}, .contrast = 1e12, .isHeld = true}.system();
+  BoxSystem singular = Equations{.box = {{200, 200, 1}, {}}, .shift = 1e-16}.system();
+  for (BoxSystem* system : {&jumps, &singular}) {
+    const auto outcome = solve(*system, {"cg", "multigrid", 1e-10, 1000, ""});
+    if (!outcome) continue;
+    // What it accepts is a solution.
+    ASSERT_TRUE(outcome->converged);
+    std::vector<double> rest = system->b;
+    system->matrix.subtract(system->x, rest);
+    double size = 0, left = 0;
+    system->matrix.shape.forEachCell([&](std::ptrdiff_t at) {
+      size += system->b[at] * system->b[at];
+      left += rest[at] * rest[at];
+    });
+    EXPECT_LE(left, 4e-20 * size);
+  }
+}
+
 TEST(BoxSolve, LeavesMatricesThatAreNotPositiveDefiniteToOthers) {
   BoxSystem system = Equations{.box = {{30, 30, 1}, {}}, .shift = -1}.system();
 
