@@ -46,18 +46,19 @@ double soundSpeedSquaredIn(const GhostRule<D>& rule, const std::array<double, N>
 /// halves, it remains positive.
 constexpr double greatestFall = 0.25;
 
-/// Raises the pressure of a state, at constant entropy to first order: with the density of the cell, gas that flows in
-/// would be colder in each step. It compresses all gases of a cell by the same factor. If the pressure depends on the
-/// density alone, the temperature stays.
+/// Raises the pressure of a state, at constant entropy to first order unless the density is given: with the density of
+/// the cell, gas that flows in would be colder in each step. It compresses all gases of a cell by the same factor. If
+/// the pressure depends on the density alone, the temperature stays.
 template <int D, std::size_t N>
 void raise(const GhostRule<D>& rule, double rise, std::array<double, N>& w) {
   const double density = w[kDensity], squared = soundSpeedSquaredIn<D>(rule, w);
   const double limited = std::max(rise, -greatestFall * density * squared);
   constexpr int K = kGasesIn<D, N>;
-  w[kDensity] += limited / squared;
+  const bool isBarotropic = K == 1 && rule.gas->isBarotropic();
+  if (isBarotropic || rule.factor[kDensity] == 1) w[kDensity] += limited / squared;
   if constexpr (K > 1)
     for (int k = 0; k < K; ++k) w[kMass<D>(k)] *= w[kDensity] / density;
-  if (K == 1 && rule.gas->isBarotropic())
+  if (isBarotropic)
     w[kPressure<D>] *= w[kDensity] / density;
   else
     w[kPressure<D>] += limited;
