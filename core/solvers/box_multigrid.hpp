@@ -19,7 +19,6 @@ class BoxMultigrid {
 
   /// z = M b, where M is about the inverse of the matrix; both have the layout of the matrix.
   void apply(const std::vector<double>& b, std::vector<double>& z);
-  int levels() const { return static_cast<int>(levels_.size()); }
 
  private:
   using Real = float;

@@ -1,17 +1,13 @@
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "core/solvers/newton_rules.hpp"
 #include "core/solvers/petsc_objects.hpp"
+#include "core/solvers/stopwatch.hpp"
 
 namespace tushar::solvers {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
 
 /// The data that PETSc's callbacks need.
 struct Newton {
@@ -69,7 +65,7 @@ void setTolerance(Newton& newton, SNES snes, KSP krylov, PetscInt iteration) {
 PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
   return guarded(newton.thrown, [&] {
-    const auto start = Clock::now();
+    const Stopwatch assembly;
     KSP krylov = nullptr;
     PetscInt iteration = 0;
     check(SNESGetKSP(snes, &krylov));
@@ -77,14 +73,14 @@ PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
     const bool isNew = needsPreconditioner(newton, krylov, iteration);
     newton.matrix.assemble([&](Matrix& matrix) { newton.problem.tangent(matrix); });
     newton.balance.scale(newton.matrix, isNew);
-    const auto assembled = Clock::now();
+    newton.assembly += assembly.seconds();
+    const Stopwatch setup;
     check(KSPSetOperators(krylov, newton.matrix, newton.matrix));
     check(KSPSetReusePreconditioner(krylov, isNew ? PETSC_FALSE : PETSC_TRUE));
     check(KSPSetUp(krylov));
     if (isNew) newton.afterSetup = -1;
     setTolerance(newton, snes, krylov, iteration);
-    newton.assembly += seconds(assembled - start);
-    newton.setup += seconds(Clock::now() - assembled);
+    newton.setup += setup.seconds();
   });
 }
 
@@ -186,7 +182,7 @@ Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonS
   OwnedSnes snes;
   check(SNESCreate(mpi::handleOf(*unknowns.ranks), snes.address()));
   configure(snes, newton, r);
-  const auto start = Clock::now();
+  const Stopwatch whole;
   const PetscErrorCode code = SNESSolve(snes, nullptr, solution);
   if (newton.thrown) std::rethrow_exception(newton.thrown);
   check(code);
@@ -195,7 +191,7 @@ Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonS
   Outcome outcome;
   outcome.assembly = newton.assembly;
   outcome.setup = newton.setup;
-  outcome.solve = seconds(Clock::now() - start) - newton.assembly - newton.setup;
+  outcome.solve = whole.seconds() - newton.assembly - newton.setup;
   note(outcome, snes, r);
   return outcome;
 }

@@ -74,9 +74,9 @@ class ImplicitStep {
       if (share != 1)
         for (double& number : flux) number *= share;
       euler::store<D>(flux_.at(face), 0, flux);
-      most = std::max(most, std::abs(u) * dt_ * level_.inverseSpacing(axis));
+      most = std::max(most, std::abs(u));
     });
-    return most;
+    return most * (dt_ * level_.inverseSpacing(axis));
   }
   euler::Rows<D, K>& flux() { return flux_; }
   bool areBlended() const { return euler::areBlended(flow_.gas()); }
