@@ -49,6 +49,7 @@ using tasks::computes;
 using tasks::computesOwn;
 using tasks::creates;
 using tasks::following;
+using tasks::forEachOn;
 using tasks::keepsFlux;
 using tasks::Marks;
 using tasks::marks;
@@ -66,5 +67,7 @@ using tasks::togetherOnRanks;
 using tasks::totals;
 using tasks::when;
 using tasks::with;
+using tasks::withWorkers;
+using tasks::Workers;
 
 }  // namespace tushar

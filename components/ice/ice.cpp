@@ -160,7 +160,7 @@ void ImplicitIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 
 template <int D>
 void ImplicitIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  tasks.perRank("ice::solvePressure", solvePressure<D>, togetherOnRanks(), with(this->settings()), with(this->acting()),
+  tasks.perRank("ice::solvePressure", solvePressure<D>, withWorkers(), with(this->settings()), with(this->acting()),
                 startTime(), requiresOld(delT), all<euler::OldState<D>>(2), requiresOld(c::pressureAtEnd),
                 all<PressureViews>(), totals<SolveTotals>());
   tasks.perPatch("ice::advanceImplicitly", advanceImplicitly<D>, with(this->settings()), with(this->acting()),

@@ -15,7 +15,7 @@ void ImplicitHeat<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void ImplicitHeat<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  tasks.perRank("implicit_heat::conduct", conduct<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
+  tasks.perRank("implicit_heat::conduct", conduct<D>, withWorkers(), with(settings_), requiresOld(delT),
                 requiresOld(c::temperature), computes(c::temperature), computes(iterations),
                 computes(solvers::assemblyTime), computes(solvers::preconditionerTime), computes(solvers::solveTime));
 }
@@ -41,7 +41,7 @@ void extrapolate(const RankPatches& patches, double theta, const std::vector<Cel
 }  // namespace
 
 template <int D>
-void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double dt,
+void conduct(const RankPatches& patches, const Workers& workers, const Settings& settings, double dt,
              const std::vector<CellView<const double>>& temperature,
              const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
              Maximum& setup, Maximum& solution) {
@@ -57,7 +57,7 @@ void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const S
     const double right = capacity * temperature[p][cell] + balance.constant;
     return numerics::CellEquation<D>{std::move(balance), right};
   };
-  numerics::CellSystem<D> system(patches, ranks);
+  numerics::CellSystem<D> system(patches, workers);
   const solvers::Outcome outcome = system.solve(settings.solver, temperature, equationOf);
   system.requireConvergence(outcome, "the conduction of heat", "Heat", "c.temperature", ", or a smaller <delt_max>");
   system.take(newTemperature);

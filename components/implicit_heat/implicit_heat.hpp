@@ -44,7 +44,7 @@ class ImplicitHeat : public Component {
 /// Proc. Camb. Phil. Soc. 43 (1947) 50, of second order. Both are stable for any dt. Throws NumericalError if the
 /// solver fails.
 template <int D>
-void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double dt,
+void conduct(const RankPatches& patches, const Workers& workers, const Settings& settings, double dt,
              const std::vector<CellView<const double>>& temperature,
              const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
              Maximum& setup, Maximum& solution);

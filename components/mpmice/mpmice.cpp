@@ -142,7 +142,7 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
   tasks.acrossMaterials("mpmice::findWallSpeeds", findWallSpeeds<D>, materials, with(settings_), withoutMaterial(gas),
                         all<BodyAtFaces<D>>(1, materials.size() > 1, settings_.endsAtPlane),
                         withoutMaterial(all<NewWallSpeeds<D>>()));
-  tasks.perRank("mpmice::solvePressure", solvePressureBeside<D>, togetherOnRanks(), with(settings_), startTime(),
+  tasks.perRank("mpmice::solvePressure", solvePressureBeside<D>, withWorkers(), with(settings_), startTime(),
                 requiresOld(delT), all<GasAtWalls<D>>(), gas, requiresOld(c::pressureAtEnd), all<ice::PressureViews>(),
                 totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),

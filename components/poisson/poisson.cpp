@@ -16,7 +16,7 @@ void Poisson<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void Poisson<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  tasks.perRank("poisson::solve", solve<D>, togetherOnRanks(), with(settings_), startTime(), requiresOld(delT),
+  tasks.perRank("poisson::solve", solve<D>, withWorkers(), with(settings_), startTime(), requiresOld(delT),
                 requiresOld(c::phi), computes(c::phi), totals<SolveTotals>());
 }
 
@@ -68,7 +68,7 @@ void refuseImbalance(const Level& level, const solvers::Outcome& outcome, double
 }  // namespace
 
 template <int D>
-void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double time, double dt,
+void solve(const RankPatches& patches, const Workers& workers, const Settings& settings, double time, double dt,
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            const SolveTotals& totals) {
   const Level& level = patches.front()->level();
@@ -82,8 +82,8 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
     const double right = balance.constant - own.cellVolume() * f;
     return numerics::CellEquation<D>{std::move(balance), right};
   };
-  numerics::CellSystem<D> system(patches, ranks);
-  if (!keepsValueSomewhere<D>(patches, ranks)) system.freeConstant();
+  numerics::CellSystem<D> system(patches, workers);
+  if (!keepsValueSomewhere<D>(patches, workers.ranks)) system.freeConstant();
   const solvers::Outcome outcome = system.solve(settings.solver, oldPhi, equationOf);
   refuseImbalance(level, outcome, settings.solver.tolerance);
   system.requireConvergence(outcome, "Poisson's equation", "Poisson", "c.phi");

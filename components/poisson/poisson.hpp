@@ -62,7 +62,7 @@ struct SolveTotals {
 /// Solves for phi in the cells of all patches, starting from the old phi. Throws NumericalError if the solver does not
 /// converge.
 template <int D>
-void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double time, double dt,
+void solve(const RankPatches& patches, const Workers& workers, const Settings& settings, double time, double dt,
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            const SolveTotals& totals);
 

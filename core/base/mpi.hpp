@@ -18,7 +18,7 @@ namespace tushar::mpi {
 using Bytes = std::vector<std::byte>;
 
 /// The kind of a message: a rank that waits for one kind does not receive messages of another.
-enum class Tag : int { ghosts, migrants, patches, output };
+enum class Tag : int { ghosts, migrants, patches, output, planes };
 
 /// Appends `length` bytes, which start at `from`.
 inline void append(Bytes& bytes, const void* from, std::size_t length) {

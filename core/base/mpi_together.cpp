@@ -59,6 +59,43 @@ std::vector<std::uint64_t> allOf(const Communicator& ranks, std::span<const std:
   return all;
 }
 
+namespace {
+
+/// A type of MPI for blocks of bytes, so that fewer than 2^31 blocks can have more bytes.
+class Blocks {
+ public:
+  explicit Blocks(std::size_t bytes) {
+    MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &type_);
+    MPI_Type_commit(&type_);
+  }
+  Blocks(const Blocks&) = delete;
+  Blocks& operator=(const Blocks&) = delete;
+  ~Blocks() { MPI_Type_free(&type_); }
+  MPI_Datatype type() const { return type_; }
+
+ private:
+  MPI_Datatype type_ = MPI_DATATYPE_NULL;
+};
+
+}  // namespace
+
+void complete(const Communicator& ranks, std::span<std::byte> items, std::span<const int> firsts) {
+  if (ranks.isAlone() || items.empty()) return;
+  std::vector<int> counts;
+  for (int rank = 0; rank < ranks.size(); ++rank) counts.push_back(firsts[rank + 1] - firsts[rank]);
+  const Blocks item(items.size() / static_cast<std::size_t>(firsts[ranks.size()]));
+  MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, items.data(), counts.data(), firsts.data(), item.type(),
+                 ranks.native()->ranks);
+}
+
+void pass(const Communicator& ranks, int to, std::span<const std::byte> sent, int from, std::span<std::byte> received) {
+  const auto orNone = [](int rank) { return rank < 0 ? MPI_PROC_NULL : rank; };
+  constexpr int tag = static_cast<int>(Tag::planes);
+  MPI_Sendrecv(sent.data(), static_cast<int>(sent.size()), MPI_BYTE, orNone(to), tag, received.data(),
+               static_cast<int>(received.size()), MPI_BYTE, orNone(from), tag, ranks.native()->ranks,
+               MPI_STATUS_IGNORE);
+}
+
 std::vector<int> firstOfNodes(const Communicator& ranks) {
   if (ranks.isAlone()) return {0};
   MPI_Comm node = MPI_COMM_NULL;

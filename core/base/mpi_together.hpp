@@ -29,6 +29,13 @@ std::uint64_t sumBefore(const Communicator& ranks, std::uint64_t mine);
 /// The numbers of all ranks, in the order of the ranks, on every rank.
 std::vector<std::uint64_t> allOf(const Communicator& ranks, std::span<const std::uint64_t> mine);
 
+/// Completes `items` on every rank: items of equal size, of which rank r has those from firsts[r] to firsts[r + 1] - 1.
+void complete(const Communicator& ranks, std::span<std::byte> items, std::span<const int> firsts);
+
+/// Sends bytes to the rank `to`, and replaces `received` by as many from the rank `from`; -1: none, to or from which
+/// nothing is sent. For ranks that do so in a row or in a ring.
+void pass(const Communicator& ranks, int to, std::span<const std::byte> sent, int from, std::span<std::byte> received);
+
 /// The first rank on each machine, in ascending order, on every rank.
 std::vector<int> firstOfNodes(const Communicator& ranks);
 

@@ -159,14 +159,16 @@ void Threads::run(int times, const Loop& loop, trace::Kind kind) {
     return failure.rethrow();
   }
   const auto from = Clock::now();
+  const double before = use_.loops;
   Clock::duration busy{};
   if (pool_ && times > 1)
     busy = pool_->run(times, watched);
   else
     workAlone();
   const Clock::duration wall = Clock::now() - from;
-  (kind == trace::Kind::message ? use_.message : use_.task) += seconds(pool_ && times > 1 ? busy : wall);
-  use_.loops += seconds(wall);
+  const double inner = use_.loops - before;  // has been counted by loops that the work itself ran
+  (kind == trace::Kind::message ? use_.message : use_.task) += seconds(pool_ && times > 1 ? busy : wall) - inner;
+  use_.loops += seconds(wall) - inner;
   failure.rethrow();
 }
 

@@ -38,7 +38,7 @@ class Threads {
 
   /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If a
   /// call throws, the remaining calls are made nevertheless; then the exception of the call with the lowest number is
-  /// rethrown.
+  /// rethrown. Work that is called once, or that a single thread does, may itself run such loops.
   template <class Work>
   void forEach(int times, const Work& work, trace::Kind kind = trace::Kind::task) {
     run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }}, kind);

@@ -3,30 +3,18 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/numerics/box_system.hpp"
 #include "core/numerics/diffusion.hpp"
-#include "core/solvers/box_solve.hpp"
 #include "core/solvers/direct.hpp"
 #include "core/solvers/numbering.hpp"
 #include "core/solvers/report.hpp"
-#include "core/solvers/stopwatch.hpp"
 #include "core/solvers/unsymmetric.hpp"
 #include "core/tasks/access.hpp"
 
 namespace tushar::numerics {
-
-/// One equation of a linear system: sum_n weight_n x_n = right, where `left` contains the weights.
-template <int D>
-struct CellEquation {
-  Balance<D> left;
-  double right;
-};
-
-/// Says that equations are not given row by row.
-struct NoRows {};
 
 /// A linear system with one unknown and one equation for each cell of the grid, on all levels, solved by all ranks
 /// together. It is assembled, solved and read out within one step. On several levels, the matrix need not be symmetric,
@@ -34,14 +22,11 @@ struct NoRows {};
 template <int D>
 class CellSystem {
  public:
-  /// `ranks` must be togetherOnRanks().
-  CellSystem(const tasks::RankPatches& patches, const mpi::Communicator& ranks)
-      : patches_(patches), grid_(patches.front()->level().grid()), number_(grid_) {
-    unknowns_.ranks = &ranks;
+  CellSystem(const tasks::RankPatches& patches, const tasks::Workers& workers)
+      : patches_(patches), grid_(patches.front()->level().grid()), workers_(workers) {
+    unknowns_.ranks = &workers.ranks;
     unknowns_.axes = D;
-    unknowns_.owned = number_.owned();
-    unknowns_.ghosts = number_.ghosts();
-    unknowns_.entries.assign(number_.owned(), Balance<D>::most);
+    for (const grid::Patch* patch : patches) unknowns_.owned += static_cast<int>(patch->cells().size());
   }
 
   /// Declares that the solution is unique only up to a constant; the solution with mean 0 is then used.
@@ -50,15 +35,46 @@ class CellSystem {
   /// Solves for the unknowns, starting from the values in `guess` of each patch. `equationOf(p, cell)` returns the
   /// CellEquation of a cell of patch number p of the rank; on several levels it is called twice for cells at the faces
   /// of a patch. `scale`: see solvers::LinearProblem. For speed, `fillRow(p, first, count, BoxRow)` may write the same
-  /// equations, of `count` cells along the first axis.
+  /// equations, of `count` cells along the first axis. Both are called on several threads, on each for other patches.
   template <class EquationOf, class FillRow = NoRows>
   solvers::Outcome solve(const solvers::LinearSettings& settings,
                          const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf,
                          double scale = 0, const FillRow& fillRow = {}) {
+    if (grid_.levels() == 1 && solvers::suitsBox(settings) && !solvers::isDirect(unknowns_, settings)) {
+      box_.emplace(patches_, workers_);
+      if (auto outcome = box_->solve(settings, {scale, unknowns_.constantIsFree}, guess, equationOf, fillRow))
+        return *std::move(outcome);
+      box_.reset();
+    }
+    return solveOnLevels(settings, guess, equationOf, scale);
+  }
+  /// Throws NumericalError if the solver has not converged. `what` names the system, `section` is the section of the
+  /// scene with the settings of the solver, `quantity` is the label of the solution, and `also` is further advice.
+  void requireConvergence(const solvers::Outcome& outcome, const std::string& what, const std::string& section,
+                          const std::string& quantity, const std::string& also = "") const {
+    if (outcome.converged) return;
+    throw NumericalError(
+        solvers::sentenceOf(what, outcome) +
+            solvers::worstPlace(*unknowns_.ranks, middleOf(outcome.worst), "in the cell"),
+        "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <" + section + ">/<Solver>" + also,
+        quantity);
+  }
+  /// Copies the solution to the fields of the patches.
+  void take(const std::vector<data::CellView<double>>& values) const {
+    if (box_) return box_->take(values);
+    forEachCell([&](std::size_t p, const Index<D>& cell) { values[p][cell] = solution_[rowOf(p, cell)]; });
+  }
+
+ private:
+  /// Solves on any number of levels.
+  template <class EquationOf>
+  solvers::Outcome solveOnLevels(const solvers::LinearSettings& settings,
+                                 const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf,
+                                 double scale) {
     const bool isRefined = grid_.levels() > 1;
-    if (!isRefined && unknowns_.ranks->isAlone() && solvers::suitsBox(settings) &&
-        !solvers::isDirect(unknowns_, settings))
-      if (auto outcome = solveOnBox(settings, guess, equationOf, scale, fillRow)) return *std::move(outcome);
+    number_.emplace(grid_);
+    unknowns_.ghosts = number_->ghosts();
+    unknowns_.entries.assign(number_->owned(), Balance<D>::most);
     if (isRefined) meetOthers(equationOf);
     std::vector<double> right(unknowns_.entries.size());
     solution_.resize(right.size());
@@ -75,81 +91,6 @@ class CellSystem {
     if (isRefined && unknowns_.constantIsFree) takeOutMean();
     return outcome;
   }
-  /// Throws NumericalError if the solver has not converged. `what` names the system, `section` is the section of the
-  /// scene with the settings of the solver, `quantity` is the label of the solution, and `also` is further advice.
-  void requireConvergence(const solvers::Outcome& outcome, const std::string& what, const std::string& section,
-                          const std::string& quantity, const std::string& also = "") const {
-    if (outcome.converged) return;
-    throw NumericalError(
-        solvers::sentenceOf(what, outcome) +
-            solvers::worstPlace(*unknowns_.ranks, middleOf(outcome.worst), "in the cell"),
-        "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <" + section + ">/<Solver>" + also,
-        quantity);
-  }
-  /// Copies the solution to the fields of the patches.
-  void take(const std::vector<data::CellView<double>>& values) const {
-    forEachCell([&](std::size_t p, const Index<D>& cell) { values[p][cell] = solution_[rowOf(p, cell)]; });
-  }
-
- private:
-  /// Solves without PETSc; returns nothing if that is not possible.
-  template <class EquationOf, class FillRow>
-  std::optional<solvers::Outcome> solveOnBox(const solvers::LinearSettings& settings,
-                                             const std::vector<data::CellView<const double>>& guess,
-                                             EquationOf&& equationOf, double scale, const FillRow& fillRow) {
-    const grid::Level& level = grid_.level();
-    solvers::CellBox box;
-    for (int d = 0; d < D; ++d) {
-      box.cells[d] = level.cells().extent(d);
-      box.isPeriodic[d] = level.isPeriodic(d);
-    }
-    solvers::BoxSystem system(box);
-    system.scale = scale;
-    system.constantIsFree = unknowns_.constantIsFree;
-    const solvers::Stopwatch assembling;
-    if (!fillBox(system, guess, equationOf, fillRow)) return {};
-    const double duration = assembling.seconds();
-    std::optional<solvers::Outcome> outcome = solvers::solve(system, settings);
-    if (!outcome) return {};
-    outcome->assembly = duration;
-    solution_.resize(unknowns_.entries.size());
-    forEachRow([&](std::size_t p, const Index<D>& first, int count) {
-      std::copy_n(system.x.begin() + offsetIn(system, first), count, solution_.begin() + rowOf(p, first));
-    });
-    return outcome;
-  }
-  /// Returns whether the equations suit a BoxSystem.
-  template <class EquationOf, class FillRow>
-  bool fillBox(solvers::BoxSystem& system, const std::vector<data::CellView<const double>>& guess,
-               EquationOf&& equationOf, const FillRow& fillRow) const {
-    solvers::BoxAssembly assembly(system.matrix);
-    forEachRow([&](std::size_t p, const Index<D>& first, int count) {
-      const std::ptrdiff_t start = offsetIn(system, first);
-      std::copy_n(&guess[p][first], count, system.x.begin() + start);
-      if constexpr (!std::is_same_v<FillRow, NoRows>) {
-        fillRow(p, first, count, solvers::BoxRow<D>(system, start));
-      } else {
-        Index<D> cell = first;
-        for (std::ptrdiff_t at = start; at < start + count; ++at, ++cell[0]) {
-          const CellEquation<D> equation = equationOf(p, cell);
-          const Balance<D>& left = equation.left;
-          system.matrix.diagonal[at] = left.weights[0];
-          system.b[at] = equation.right;
-          for (std::size_t k = 1; k < left.count; ++k)
-            assembly.link(at, offsetIn(system, left.cells[k]), -left.weights[k]);
-        }
-      }
-    });
-    return assembly.finish();
-  }
-  static std::ptrdiff_t offsetIn(const solvers::BoxSystem& system, const Index<D>& cell) {
-    return system.matrix.shape.offset(cell[0], D > 1 ? cell[D > 1 ? 1 : 0] : 0, D > 2 ? cell[D - 1] : 0);
-  }
-  template <class Visit>
-  void forEachRow(Visit&& visit) const {
-    for (std::size_t p = 0; p < patches_.size(); ++p)
-      grid::forEachRow<D>(patches_[p]->cells(), [&](const Index<D>& first, int count) { visit(p, first, count); });
-  }
   template <class Visit>
   void forEachCell(Visit&& visit) const {
     for (std::size_t p = 0; p < patches_.size(); ++p)
@@ -157,7 +98,7 @@ class CellSystem {
   }
   int levelOf(std::size_t p) const { return patches_[p]->level().number(); }
   std::size_t rowOf(std::size_t p, const Index<D>& cell) const {
-    return static_cast<std::size_t>(number_(levelOf(p), cell));
+    return static_cast<std::size_t>((*number_)(levelOf(p), cell));
   }
   /// Determines, from the equations of cells at the faces of patches, which cells of other ranks are used, and the
   /// number of entries in the rows of these equations; the equations of all other cells contain only direct neighbours.
@@ -169,19 +110,19 @@ class CellSystem {
       for (int d = 0; d < D; ++d) isInside &= cell[d] > cells.lower[d] && cell[d] < cells.upper[d] - 1;
       if (isInside) return;
       const Balance<D> left = equationOf(p, cell).left;
-      for (std::size_t k = 0; k < left.count; ++k) number_.meet(left.level, left.cells[k]);
-      for (const auto& far : left.far) number_.meet(far.level, far.cell);
+      for (std::size_t k = 0; k < left.count; ++k) number_->meet(left.level, left.cells[k]);
+      for (const auto& far : left.far) number_->meet(far.level, far.cell);
       const auto inRow = static_cast<int>(left.count + left.far.size());
       unknowns_.entries[rowOf(p, cell)] = std::min(inRow, unknowns_.owned);
     });
-    unknowns_.ghosts = number_.ghosts();
+    unknowns_.ghosts = number_->ghosts();
   }
   void add(const Balance<D>& left, solvers::Matrix& matrix) const {
     std::array<int, Balance<D>::most> columns;
-    for (std::size_t k = 0; k < left.count; ++k) columns[k] = number_(left.level, left.cells[k]);
+    for (std::size_t k = 0; k < left.count; ++k) columns[k] = (*number_)(left.level, left.cells[k]);
     matrix.add({columns.data(), 1}, {columns.data(), left.count}, {left.weights.data(), left.count});
     for (const auto& far : left.far) {
-      const int column = number_(far.level, far.cell);
+      const int column = (*number_)(far.level, far.cell);
       matrix.add({columns.data(), 1}, {&column, 1}, {&far.weight, 1});
     }
   }
@@ -202,7 +143,7 @@ class CellSystem {
     std::optional<Vec3> middle;
     forEachCell([&](std::size_t p, const Index<D>& cell) {
       const grid::Level& level = patches_[p]->level();
-      if (wanted >= 0 && number_(level.number(), cell) == wanted)
+      if (wanted >= 0 && (box_ ? box_->numberOf(cell) : (*number_)(level.number(), cell)) == wanted)
         middle = level.template expandPoint<D>(level.template cellCentre<D>(cell));
     });
     return middle;
@@ -210,8 +151,10 @@ class CellSystem {
 
   const tasks::RankPatches& patches_;
   const grid::Grid& grid_;
-  solvers::CellNumbering number_;
+  tasks::Workers workers_;
   solvers::Unknowns unknowns_;
+  std::optional<BoxOfCells<D>> box_;  ///< if it has solved the system
+  std::optional<solvers::CellNumbering> number_;
   std::vector<double> solution_;
 };
 

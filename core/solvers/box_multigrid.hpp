@@ -11,8 +11,9 @@ namespace tushar::solvers {
 ///
 /// Two cells along an axis become one; axes with weak links are left for coarser levels, where all are alike. The link
 /// between coarse cells is half of the sum of the links between them, since their centres are twice as far apart. The
-/// smoother is Chebyshev's polynomial of the fourth kind. Sources: U. Trottenberg, C. Oosterlee & A. Schueller,
-/// Multigrid (2001), 5.1; J. Lottes, Numer. Linear Algebra Appl. 30 (2023) e2518, for the smoother.
+/// smoother is Chebyshev's polynomial of the fourth kind. Ranks share a level like the box, until it has few cells or
+/// a slab that cannot be halved; from there on, each of them computes all cells. Sources: U. Trottenberg, C. Oosterlee
+/// & A. Schueller, Multigrid (2001), 5.1; J. Lottes, Numer. Linear Algebra Appl. 30 (2023) e2518, for the smoother.
 class BoxMultigrid {
  public:
   explicit BoxMultigrid(const BoxStencil<double>& matrix);
@@ -24,6 +25,7 @@ class BoxMultigrid {
   using Real = float;
   struct Grid {
     Grid(const BoxStencil<double>& of, double scale);
+    int extent(int axis) const { return matrix.shape.extent(axis); }
     BoxStencil<Real> matrix;
     /// 1 / (diagonal times a bound of the eigenvalues of the matrix divided by its diagonal).
     std::vector<Real> inverse;

@@ -15,30 +15,14 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// The sum of term(offset) over all cells. It has the same bits for registers of any width.
-template <class Term>
-double sumOf(const BoxShape& shape, Term&& term) {
-  constexpr int parts = 8;
-  std::array<double, parts> sums{};
-  shape.forEachRow([&](std::ptrdiff_t first) {
-    const int cells = shape.extent(0), whole = cells / parts * parts;
-    for (int i = 0; i < whole; i += parts)
-      for (int k = 0; k < parts; ++k) sums[k] += term(first + i + k);
-    for (int i = whole; i < cells; ++i) sums[i - whole] += term(first + i);
-  });
-  double sum = 0;
-  for (const double part : sums) sum += part;
-  return sum;
-}
-
 double product(const BoxShape& shape, const Values& a, const Values& b) {
-  return sumOf(shape, [a = a.data(), b = b.data()](std::ptrdiff_t at) { return a[at] * b[at]; });
+  return shape.sum([a = a.data(), b = b.data()](std::ptrdiff_t at) { return a[at] * b[at]; });
 }
 
 double norm(const BoxShape& shape, const Values& a) { return std::sqrt(product(shape, a, a)); }
 
 void takeOutMean(const BoxShape& shape, Values& values) {
-  const double mean = sumOf(shape, [&](std::ptrdiff_t at) { return values[at]; }) / static_cast<double>(shape.cells());
+  const double mean = shape.sum([&](std::ptrdiff_t at) { return values[at]; }) / static_cast<double>(shape.cells());
   shape.forEachCell([&](std::ptrdiff_t at) { values[at] -= mean; });
 }
 
@@ -54,7 +38,8 @@ class Preconditioner {
     if (multigrid_)
       multigrid_->apply(r, z);
     else if (isDiagonal_)
-      for (std::size_t k = 0; k < r.size(); ++k) z[k] = matrix_.diagonal[k] > 0 ? r[k] / matrix_.diagonal[k] : 0;
+      matrix_.shape.forEachCell(
+          [&](std::ptrdiff_t at) { z[at] = matrix_.diagonal[at] > 0 ? r[at] / matrix_.diagonal[at] : 0; });
     else
       z = r;
     if (constantIsFree_) takeOutMean(matrix_.shape, z);
@@ -119,17 +104,15 @@ class ConjugateGradients {
   double roundOff() const {
     const std::vector<double>&diagonal = system_.matrix.diagonal, &x = system_.x;
     const auto term = [&](std::ptrdiff_t at) { return diagonal[at] * x[at] * (diagonal[at] * x[at]); };
-    return 2 * std::numeric_limits<double>::epsilon() * std::sqrt(sumOf(system_.matrix.shape, term));
+    return 2 * std::numeric_limits<double>::epsilon() * std::sqrt(system_.matrix.shape.sum(term));
   }
   /// Whether the residual of each cell is small beside the terms of its own equation. Where conductivities differ by
   /// many orders of magnitude, |r| beside |b| says nothing about the equations of the worst conductor.
   bool isSmallInEachCell() const {
     if (system_.scale > 0) return true;
     const std::vector<double>&diagonal = system_.matrix.diagonal, &x = system_.x;
-    double greatest = 0, worst = 0;
-    system_.matrix.shape.forEachCell([&](std::ptrdiff_t at) {
-      greatest = std::max(greatest, std::abs(x[at]));
-      if (diagonal[at] > 0) worst = std::max(worst, std::abs(r_[at]) / diagonal[at]);
+    const auto [greatest, worst] = system_.matrix.shape.greatest<2>([&](std::ptrdiff_t at) {
+      return std::array{std::abs(x[at]), diagonal[at] > 0 ? std::abs(r_[at]) / diagonal[at] : 0};
     });
     return worst <= settings_.tolerance * greatest;
   }
@@ -159,18 +142,21 @@ class ConjugateGradients {
       for (std::ptrdiff_t at = first; at < first + shape.extent(0); ++at) to[at] = kept * to[at] + factor * from[at];
     });
   }
-  /// The number of the cell with the largest residual.
+  /// The number of the first cell with the largest residual.
   int worst() const {
-    int number = 0, found = 0;
-    double greatest = -1;
-    system_.matrix.shape.forEachCell([&](std::ptrdiff_t at) {
-      if (std::abs(r_[at]) > greatest) {
-        greatest = std::abs(r_[at]);
-        found = number;
-      }
-      ++number;
-    });
-    return found;
+    const BoxShape& shape = system_.matrix.shape;
+    const double greatest = shape.greatest<1>([&](std::ptrdiff_t at) { return std::array{std::abs(r_[at])}; })[0];
+    const double all = static_cast<double>(shape.cells());
+    double left = 0;  // the cells from the first one with this residual on
+    for (int z = shape.extent(2) - 1; z >= 0; --z) {
+      double number = all - static_cast<double>(shape.cellsOfPlane()) * (shape.slabs().first() + z);
+      shape.forEachCellIn(z, [&](std::ptrdiff_t at) {
+        if (std::abs(r_[at]) == greatest) left = std::max(left, number);
+        --number;
+      });
+    }
+    left = shape.slabs().ranks().max(left);
+    return left > 0 ? static_cast<int>(all - left) : -1;
   }
 
   BoxSystem& system_;
@@ -193,8 +179,8 @@ std::optional<Outcome> solve(BoxSystem& system, const LinearSettings& settings) 
   const BoxShape& shape = system.matrix.shape;
   Outcome outcome;
   if (system.constantIsFree) {
-    outcome.unbalanced = sumOf(shape, [&](std::ptrdiff_t at) { return system.b[at]; });
-    outcome.loads = sumOf(shape, [&](std::ptrdiff_t at) { return std::abs(system.b[at]); });
+    outcome.unbalanced = shape.sum([&](std::ptrdiff_t at) { return system.b[at]; });
+    outcome.loads = shape.sum([&](std::ptrdiff_t at) { return std::abs(system.b[at]); });
     takeOutMean(shape, system.b);
   }
   const Stopwatch setup;

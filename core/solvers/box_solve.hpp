@@ -5,8 +5,9 @@
 #include "core/solvers/box_stencil.hpp"
 #include "core/solvers/solver.hpp"
 
-// Solves systems for the cells of a box on one rank, without PETSc: conjugate gradients with geometric multigrid. A
-// solve takes .2 to .7 µs per cell, an algebraic multigrid 5 to 10 times as long (components/poisson/README.md).
+// Solves systems for the cells of a box without PETSc: conjugate gradients with geometric multigrid, on threads and
+// ranks that share the box (box_slabs.hpp), with the same bits for any of them. On one thread, a solve takes .2 to .7
+// µs per cell, an algebraic multigrid 5 to 10 times as long (components/poisson/README.md).
 
 namespace tushar::solvers {
 
@@ -16,7 +17,8 @@ bool suitsBox(const LinearSettings& settings);
 /// A linear system A x = b for the cells of a box. Vectors have the layout of the matrix. Cells without an equation
 /// have a diagonal of 0.
 struct BoxSystem {
-  explicit BoxSystem(const CellBox& box) : matrix(box), b(matrix.diagonal), x(b) {}
+  explicit BoxSystem(const CellBox& box) : BoxSystem(BoxShape(box)) {}
+  explicit BoxSystem(BoxShape shape) : matrix(std::move(shape)), b(matrix.diagonal), x(b) {}
 
   BoxStencil<double> matrix;
   std::vector<double> b, x;
@@ -29,16 +31,12 @@ template <int D>
 struct BoxRow {
   double *diagonal, *right;
   std::array<double*, D> links;
-
-  BoxRow(BoxSystem& system, std::ptrdiff_t first)
-      : diagonal(system.matrix.diagonal.data() + first), right(system.b.data() + first) {
-    for (int d = 0; d < D; ++d) links[d] = system.matrix.links[d].data() + first;
-  }
 };
 
 /// Replaces the initial guess x by the solution. Returns nothing, and leaves an arbitrary x, if others must try: if the
-/// matrix is not positive definite or nearly singular, or its numbers differ by too many orders of magnitude. `worst`
-/// of the outcome counts cells, the first axis fastest.
+/// matrix is not positive definite or nearly singular, or its numbers differ by too many orders of magnitude. All ranks
+/// that share the box call this and get the same outcome, whose `worst` counts the cells of the box, the first axis
+/// fastest.
 std::optional<Outcome> solve(BoxSystem& system, const LinearSettings& settings);
 
 }  // namespace tushar::solvers

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "core/solvers/box_slabs.hpp"
 
 namespace tushar::solvers {
 
@@ -13,41 +16,100 @@ struct CellBox {
   std::array<bool, 3> isPeriodic{};
 };
 
-/// How values of the cells of a box are stored: the first axis fastest, with a layer of cells around the box.
+/// How values of the cells of a box are stored on a rank, which has a slab of the box: the first axis fastest, with a
+/// layer of cells around the slab.
 class BoxShape {
  public:
-  explicit BoxShape(const CellBox& box) : box_(box) {
+  explicit BoxShape(const CellBox& box) : BoxShape(box, BoxSlabs(box.cells[2])) {}
+  BoxShape(const CellBox& box, BoxSlabs slabs) : box_(box), slabs_(std::move(slabs)) {
     for (int d = 0; d < 3; ++d) {
       strides_[d] = stored_;
-      stored_ *= box.cells[d] + 2;
+      stored_ *= extent(d) + 2;
     }
   }
 
   const CellBox& box() const { return box_; }
-  int extent(int axis) const { return box_.cells[axis]; }
+  const BoxSlabs& slabs() const { return slabs_; }
+  /// Number of cells of the slab along an axis.
+  int extent(int axis) const { return axis == 2 ? slabs_.own() : box_.cells[axis]; }
   std::ptrdiff_t stride(int axis) const { return strides_[axis]; }
   /// Number of stored values.
   std::size_t stored() const { return static_cast<std::size_t>(stored_); }
-  std::size_t cells() const { return std::size_t(extent(0)) * std::size_t(extent(1)) * std::size_t(extent(2)); }
+  std::size_t cellsOfPlane() const { return std::size_t(box_.cells[0]) * std::size_t(box_.cells[1]); }
+  /// Number of cells of the box.
+  std::size_t cells() const { return cellsOfPlane() * std::size_t(box_.cells[2]); }
+  /// The place of a cell; z counts from the first plane of the slab.
   std::ptrdiff_t offset(int x, int y, int z) const {
     return (x + 1) * strides_[0] + (y + 1) * strides_[1] + (z + 1) * strides_[2];
   }
-  /// Calls visit(offset) for the first cell of each row along the first axis, in the order of storage.
+  /// Calls visit(z) for each plane of the slab, possibly on several threads.
   template <class Visit>
-  void forEachRow(Visit&& visit) const {
-    for (int z = 0; z < extent(2); ++z)
-      for (int y = 0; y < extent(1); ++y) visit(offset(0, y, z));
+  void forEachPlane(const Visit& visit) const {
+    slabs_.forEachPlane(cellsOfPlane(), visit);
   }
-  /// Calls visit(offset) for each cell, in the order of storage.
+  /// Calls visit(offset) for the first cell of each row along the first axis in a plane, in the order of storage.
   template <class Visit>
-  void forEachCell(Visit&& visit) const {
-    forEachRow([&](std::ptrdiff_t first) {
+  void forEachRowIn(int z, Visit&& visit) const {
+    for (int y = 0; y < extent(1); ++y) visit(offset(0, y, z));
+  }
+  /// The same for the rows of all planes, possibly on several threads.
+  template <class Visit>
+  void forEachRow(const Visit& visit) const {
+    forEachPlane([&](int z) { forEachRowIn(z, visit); });
+  }
+  /// Calls visit(offset) for each cell of a plane, in the order of storage.
+  template <class Visit>
+  void forEachCellIn(int z, Visit&& visit) const {
+    forEachRowIn(z, [&](std::ptrdiff_t first) {
       for (std::ptrdiff_t at = first; at < first + extent(0); ++at) visit(at);
     });
   }
+  template <class Visit>
+  void forEachCell(const Visit& visit) const {
+    forEachPlane([&](int z) { forEachCellIn(z, visit); });
+  }
+  /// The sum of term(offset) over all cells of the box. It has the same bits for any slabs, threads and registers.
+  template <class Term>
+  double sum(const Term& term) const {
+    std::vector<double> ofPlanes(static_cast<std::size_t>(box_.cells[2]));
+    forEachPlane([&](int z) { ofPlanes[std::size_t(slabs_.first() + z)] = sumIn(z, term); });
+    return slabs_.sum(ofPlanes);
+  }
+  /// The greatest values of the numbers that terms(offset) returns for the cells of the box, or 0.
+  template <std::size_t N, class Terms>
+  std::array<double, N> greatest(const Terms& terms) const {
+    std::vector<std::array<double, N>> ofPlanes(static_cast<std::size_t>(slabs_.own()));
+    forEachPlane([&](int z) {
+      forEachCellIn(z, [&, &found = ofPlanes[std::size_t(z)]](std::ptrdiff_t at) {
+        const std::array<double, N> here = terms(at);
+        for (std::size_t k = 0; k < N; ++k) found[k] = std::max(found[k], here[k]);
+      });
+    });
+    std::array<double, N> all{};
+    for (const std::array<double, N>& found : ofPlanes)
+      for (std::size_t k = 0; k < N; ++k) all[k] = std::max(all[k], found[k]);
+    slabs_.ranks().max(all);
+    return all;
+  }
 
  private:
+  template <class Term>
+  double sumIn(int z, const Term& term) const {
+    constexpr int parts = 8;
+    std::array<double, parts> sums{};
+    forEachRowIn(z, [&](std::ptrdiff_t first) {
+      const int cells = extent(0), whole = cells / parts * parts;
+      for (int i = 0; i < whole; i += parts)
+        for (int k = 0; k < parts; ++k) sums[k] += term(first + i + k);
+      for (int i = whole; i < cells; ++i) sums[i - whole] += term(first + i);
+    });
+    double sum = 0;
+    for (const double part : sums) sum += part;
+    return sum;
+  }
+
   CellBox box_;
+  BoxSlabs slabs_;
   std::array<std::ptrdiff_t, 3> strides_{};
   std::ptrdiff_t stored_ = 1;
 };
@@ -57,14 +119,15 @@ class BoxShape {
 /// are arbitrary.
 template <class Real>
 struct BoxStencil {
-  explicit BoxStencil(const CellBox& box) : shape(box), diagonal(shape.stored()), links{diagonal, diagonal, diagonal} {}
+  explicit BoxStencil(BoxShape of)
+      : shape(std::move(of)), diagonal(shape.stored()), links{diagonal, diagonal, diagonal} {}
 
   BoxShape shape;
   std::vector<Real> diagonal;
   /// For each axis, the link through the upper face of a cell; 0 on sides that are not periodic.
   std::array<std::vector<Real>, 3> links;
 
-  /// Copies the links of the last cells along periodic axes to the layer before the first ones.
+  /// Fills the links of the layer before the first cells, from other ranks and along periodic axes.
   void close();
   /// r = r - A z. Fills the layer around z.
   void subtract(std::vector<Real>& z, std::vector<Real>& r) const;
@@ -72,27 +135,19 @@ struct BoxStencil {
   void multiply(std::vector<Real>& z, std::vector<Real>& r) const;
 };
 
-/// Takes the links of a matrix from its rows.
-class BoxAssembly {
+/// Whether a matrix can be one of a BoxSystem: whether it is symmetric, and no link is negative.
+class LinkCheck {
  public:
-  explicit BoxAssembly(BoxStencil<double>& matrix) : matrix_(matrix) {}
-
-  /// Takes the link of the row at the offset `from` to the cell at the offset `to`, which has a common face with it and
-  /// may be beyond a periodic side. The diagonal is set by others.
-  void link(std::ptrdiff_t from, std::ptrdiff_t to, double value) {
-    const bool isUp = to > from;
-    const std::ptrdiff_t step = isUp ? to - from : from - to;
-    int axis = 2;
-    while (axis > 0 && step < matrix_.shape.stride(axis)) --axis;
-    if (isUp) matrix_.links[axis][from] = value;
-    (isUp ? up_ : down_)[axis] += value;
-    least_ = std::min(least_, value);
+  /// Takes the link of a cell to the next one along an axis, upwards or downwards.
+  void add(int axis, bool isUp, double link) {
+    (isUp ? up_ : down_)[axis] += link;
+    least_ = std::min(least_, link);
   }
-  /// Completes the matrix. Returns false if it is not symmetric, or if a link is negative.
-  bool finish();
+  void add(const LinkCheck& other);
+  /// The result for all ranks.
+  bool passes(const mpi::Communicator& ranks) const;
 
  private:
-  BoxStencil<double>& matrix_;
   std::array<double, 3> up_{}, down_{};  ///< sums of the links through upper and lower faces
   double least_ = 0;
 };

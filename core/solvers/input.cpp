@@ -29,7 +29,7 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
                {"cholesky", "cholesky"},
                {"none", "none"}},
               defaults.preconditioner,
-              "multigrid: geometric for cells of one level on one rank, and otherwise hypre; gamg, hypre: algebraic "
+              "multigrid: geometric for cells of one level, and otherwise hypre; gamg, hypre: algebraic "
               "multigrid of PETSc or hypre; the others are for small systems")
       .ours()
       .value("tolerance", &LinearSettings::tolerance, defaults.tolerance, "1",

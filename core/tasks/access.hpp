@@ -72,6 +72,23 @@ struct RanksArgument {
 };
 inline RanksArgument togetherOnRanks() { return {}; }
 
+/// The ranks that run a task together, and the threads of this rank, which are free meanwhile.
+struct Workers {
+  const mpi::Communicator& ranks;
+  Threads& threads;
+};
+/// Calls work(p) for each patch number p of a rank, on its threads.
+template <class Work>
+void forEachOn(const Workers& workers, const RankPatches& patches, const Work& work) {
+  workers.threads.forEach(static_cast<int>(patches.size()), [&](int p) { work(static_cast<std::size_t>(p)); });
+}
+/// For a task that runs once per rank: passes its Workers.
+struct WorkersArgument {
+  void declare(std::vector<Access>&) {}
+  Workers bind(const TaskContext& context) const { return {context.ranks(), context.threads()}; }
+};
+inline WorkersArgument withWorkers() { return {}; }
+
 /// The patches of a task that runs once per rank, sorted by id.
 RankPatches patchesOf(const TaskContext& context);
 
@@ -317,7 +334,7 @@ OfMaterials<Argument> ofMaterials(MaterialRange range, Argument argument) {
 
 /// Whether an argument is allowed only in tasks that run once per rank; whether it is that of marks() or newCells().
 template <class Argument>
-inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument>;
+inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument> || std::is_same_v<Argument, WorkersArgument>;
 template <class Argument>
 inline constexpr bool isMarks = false;
 template <class Argument>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/mpi.hpp"
+#include "core/base/threads.hpp"
 #include "core/data/reduction.hpp"
 #include "core/data/rim_flux.hpp"
 #include "core/data/views.hpp"
@@ -43,6 +44,9 @@ class TaskContext {
   /// For a task that runs once per rank: the ranks that run it together.
   const mpi::Communicator& ranks() const { return *ranks_; }
   void setRanks(const mpi::Communicator& ranks) { ranks_ = &ranks; }
+  /// The same: the threads of this rank.
+  Threads& threads() const { return *threads_; }
+  void setThreads(Threads& threads) { threads_ = &threads; }
 
   /// Whether an offered output is to be computed.
   bool isWanted(int access) const { return (*accesses_)[access].variable >= 0; }
@@ -108,6 +112,7 @@ class TaskContext {
   ParticleMaker* maker_;
   std::span<const TaskContext> of_materials_, of_patches_;
   const mpi::Communicator* ranks_ = &mpi::Communicator::alone();
+  Threads* threads_ = nullptr;
 };
 
 }  // namespace tushar::tasks

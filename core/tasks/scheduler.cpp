@@ -291,6 +291,7 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
   TaskContext rank = patches.front();
   rank.setPatches(patches);
   rank.setRanks(ranksWithPatches());
+  rank.setThreads(threads_);
   try {
     located(task, -1, -1, at, [&] { task.task.body(rank); });
   } catch (const NumericalError& error) {

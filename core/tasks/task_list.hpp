@@ -167,7 +167,7 @@ class TaskList {
   static constexpr void check() {
     constexpr bool isOnRank = on == On::rank || on == On::rankAndMaterials;
     static_assert(isOnRank || !(isOfRanks<Arguments> || ...),
-                  "togetherOnRanks() is allowed only in perRank and perRankAcrossMaterials");
+                  "togetherOnRanks() and withWorkers() are allowed only in perRank and perRankAcrossMaterials");
     static_assert(!(isOnRank || on == On::newParticles) || !(isWithoutMaterial<Arguments> || ...),
                   "withoutMaterial(...) is allowed only in perMaterial and acrossMaterials");
     static_assert(on == On::patch || !(isMarks<Arguments> || ...), "marks() is allowed only in perPatch");

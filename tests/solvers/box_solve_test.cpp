@@ -33,7 +33,7 @@ struct Equations {
       for (int y = 0; y < box.cells[1]; ++y)
         for (int x = 0; x < box.cells[0]; ++x) visit(std::array<int, 3>{x, y, z});
   }
-  /// Calls visit(next, image, link) for each cell beyond a face; `image` may be beyond a periodic side.
+  /// Calls visit(next, axis, isUp, link) for each cell beyond a face, which may be at the other end of the box.
   template <class Visit>
   void forEachLink(const std::array<int, 3>& cell, Visit&& visit) const {
     for (std::size_t d = 0; d < 3; ++d)
@@ -42,25 +42,32 @@ struct Equations {
         image[d] += step;
         next[d] = (image[d] + box.cells[d]) % box.cells[d];
         if (next[d] != image[d] && !box.isPeriodic[d]) continue;
-        visit(next, image, strengths[d] * 2 * k(cell) * k(next) / (k(cell) + k(next)));
+        visit(next, static_cast<int>(d), step == 1, strengths[d] * 2 * k(cell) * k(next) / (k(cell) + k(next)));
       }
   }
   double diagonal(const std::array<int, 3>& cell) const {
     double sum = shift + (isHeld && cell[0] == 0 ? 2 * strengths[0] * k(cell) : 0);
-    forEachLink(cell, [&](const auto&, const auto&, double link) { sum += link; });
+    forEachLink(cell, [&](const auto&, int, bool, double link) { sum += link; });
     return sum;
   }
-  BoxSystem system() const {
-    BoxSystem system(box);
-    BoxAssembly assembly(system.matrix);
-    const auto offset = [&](const std::array<int, 3>& at) { return system.matrix.shape.offset(at[0], at[1], at[2]); };
+  BoxSystem system() const { return system(BoxShape(box)); }
+  /// The system of a rank that has a slab of the box.
+  BoxSystem system(const BoxShape& shape) const {
+    BoxSystem system(shape);
+    LinkCheck check;
+    const int first = shape.slabs().first();
     forEachCell([&](const std::array<int, 3>& cell) {
-      system.matrix.diagonal[offset(cell)] = diagonal(cell);
-      system.b[offset(cell)] = load(cell);
-      forEachLink(
-          cell, [&](const auto&, const auto& image, double link) { assembly.link(offset(cell), offset(image), link); });
+      if (cell[2] < first || cell[2] >= first + shape.slabs().own()) return;
+      const std::ptrdiff_t at = shape.offset(cell[0], cell[1], cell[2] - first);
+      system.matrix.diagonal[at] = diagonal(cell);
+      system.b[at] = load(cell);
+      forEachLink(cell, [&](const auto&, int axis, bool isUp, double link) {
+        check.add(axis, isUp, link);
+        if (isUp) system.matrix.links[axis][at] = link;
+      });
     });
-    EXPECT_TRUE(assembly.finish());
+    system.matrix.close();
+    EXPECT_TRUE(check.passes(shape.slabs().ranks()));
     return system;
   }
   /// The greatest |b - A x|, from the equations.
@@ -71,7 +78,7 @@ struct Equations {
     double greatest = 0;
     forEachCell([&](const std::array<int, 3>& cell) {
       double rest = load(cell) - diagonal(cell) * x(cell);
-      forEachLink(cell, [&](const auto& next, const auto&, double link) { rest += link * x(next); });
+      forEachLink(cell, [&](const auto& next, int, bool, double link) { rest += link * x(next); });
       greatest = std::max(greatest, std::abs(rest));
     });
     return greatest;
@@ -169,7 +176,7 @@ TEST(BoxSolve, EqualsTheDirectSolve) {
       const int row = equations.number(cell);
       const double diagonal = equations.diagonal(cell);
       matrix.add({&row, 1}, {&row, 1}, {&diagonal, 1});
-      equations.forEachLink(cell, [&](const auto& next, const auto&, double link) {
+      equations.forEachLink(cell, [&](const auto& next, int, bool, double link) {
         const int column = equations.number(next);
         const double weight = -link;
         matrix.add({&row, 1}, {&column, 1}, {&weight, 1});
@@ -230,21 +237,48 @@ TEST(BoxSolve, LeavesMatricesThatAreNotPositiveDefiniteToOthers) {
   EXPECT_FALSE(solve(system, precise));
 }
 
-TEST(BoxAssembly, RefusesUnsymmetricMatricesAndNegativeLinks) {
-  for (const double back : {1., 2.}) {
-    BoxStencil<double> matrix({{2, 1, 1}, {}});
-    BoxAssembly assembly(matrix);
-    const std::ptrdiff_t first = matrix.shape.offset(0, 0, 0);
-    assembly.link(first, first + 1, 1);
-    assembly.link(first + 1, first, back);
-    EXPECT_EQ(assembly.finish(), back == 1);
+TEST(LinkCheck, RefusesUnsymmetricMatricesAndNegativeLinks) {
+  const auto passes = [](double up, double down) {
+    LinkCheck check;
+    check.add(1, true, up);
+    check.add(1, false, down);
+    return check.passes(mpi::Communicator::alone());
+  };
+  EXPECT_TRUE(passes(1, 1));
+  EXPECT_FALSE(passes(1, 2));
+  EXPECT_FALSE(passes(-1, -1));
+}
+
+TEST(BoxSolve, GivesTheSameBitsOnSeveralThreads) {
+  const Equations equations{.box = {{40, 30, 37}, {false, true, true}}, .shift = .01, .contrast = 20};
+  BoxSystem one = equations.system();
+  const auto outcome = solve(one, precise);
+  ASSERT_TRUE(outcome && outcome->converged);
+  for (const int count : {2, 3}) {
+    Threads threads(count);
+    BoxSystem several = equations.system(BoxShape(equations.box, BoxSlabs(equations.box.cells[2], &threads)));
+
+    const auto same = solve(several, precise);
+
+    ASSERT_TRUE(same);
+    EXPECT_EQ(same->residuals, outcome->residuals);
+    one.matrix.shape.forEachCell([&](std::ptrdiff_t at) { EXPECT_EQ(several.x[at], one.x[at]); });
   }
-  BoxStencil<double> matrix({{2, 1, 1}, {}});
-  BoxAssembly assembly(matrix);
-  const std::ptrdiff_t first = matrix.shape.offset(0, 0, 0);
-  assembly.link(first, first + 1, -1);
-  assembly.link(first + 1, first, -1);
-  EXPECT_FALSE(assembly.finish());
+}
+
+TEST(BoxSlabs, BeginAtPlanesThatCanBeHalvedAndAreEven) {
+  for (const int ranks : {2, 3, 5, 8})
+    for (const int planes : {32, 37, 64, 100, 129}) {
+      const std::vector<int> borders = BoxSlabs::borders(planes, std::min(ranks, BoxSlabs::mostRanks(planes)));
+      EXPECT_EQ(borders.front(), 0);
+      EXPECT_EQ(borders.back(), planes);
+      for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
+        EXPECT_EQ(borders[k] % 2, 0);
+        EXPECT_GE(borders[k + 1] - borders[k], 2);
+        EXPECT_LE(borders[k + 1] - borders[k], 1.2 * planes / double(borders.size() - 1) + 3);
+      }
+    }
+  EXPECT_EQ(BoxSlabs::borders(64, 2), (std::vector{0, 32, 64}));
 }
 
 TEST(BoxSolve, SuitsNeitherOtherMethodsNorOptionsOfPetsc) {

@@ -114,7 +114,7 @@ class RefusedAccesses(unittest.TestCase):
 
     def test_ranks_belong_to_tasks_of_a_rank(self):
         said = complaints(piece(task='list.perPatch("solve", body, togetherOnRanks())'))
-        self.assertIn("togetherOnRanks() is allowed only in perRank", said)
+        self.assertIn("togetherOnRanks() and withWorkers() are allowed only in perRank", said)
 
     def test_a_group_writes_nothing_that_it_reads(self):
         self.assertIn("read-only", complaints(piece(use="group.density[cell] = 1")))

@@ -34,8 +34,8 @@ template <int D>
 void ImplicitMixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.acrossMaterials("ice::computeLaw", computeLaw<D>, this->held(), all<euler::OldGas>(0),
                         withoutMaterial(computes(c::softness)), withoutMaterial(computes(c::stiffness)));
-  tasks.perRank("ice::solvePressure", solveMixedPressure<D>, togetherOnRanks(), with(this->held().front()),
-                with(acting_), startTime(), requiresOld(delT), all<LawfulState<D>>(), requiresOld(c::pressureAtEnd),
+  tasks.perRank("ice::solvePressure", solveMixedPressure<D>, withWorkers(), with(this->held().front()), with(acting_),
+                startTime(), requiresOld(delT), all<LawfulState<D>>(), requiresOld(c::pressureAtEnd),
                 all<PressureViews>(), totals<SolveTotals>());
   tasks.acrossMaterials("ice::advanceImplicitly", advanceMixtureImplicitly<D>, this->held(), with(acting_),
                         withoutMaterial(all<euler::OldState<D>>(2)), all<euler::OldGas>(2), startTime(),

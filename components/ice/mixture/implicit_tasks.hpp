@@ -66,24 +66,23 @@ inline constexpr euler::Mixture<2> lawsOfShares{.softness = {1, 0}, .stiffness =
 /// Solves for the pressure of several gases, like solvePressure. `gas` is the first gas; its method and its boundary
 /// conditions apply to all.
 template <int D>
-void solveMixedPressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& gas,
+void solveMixedPressure(const RankPatches& patches, const Workers& workers, const euler::Settings& gas,
                         const IceSettings& settings, double time, double dt, const std::vector<LawfulState<D>>& before,
                         const std::vector<CellView<const double>>& guess, const std::vector<PressureViews>& fresh,
                         const SolveTotals& totals) {
   const Level& level = patches.front()->level();
   const euler::GhostRules<D> rules = euler::withLaws<D>(euler::ghostRules<D>(level, gas.gas, time), lawsOfShares);
   std::vector<FaceFlow<D, 2>> flows;
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    const Box cells = patches[p]->cells();
-    flows.emplace_back(level, lawsOfShares, gas.method, settings, rules, cells, dt).hold(cells, before[p].views());
-  }
+  for (const Patch* patch : patches)
+    flows.emplace_back(level, lawsOfShares, gas.method, settings, rules, patch->cells(), dt);
+  forEachOn(workers, patches, [&](std::size_t p) { flows[p].hold(patches[p]->cells(), before[p].views()); });
   const ChangeEquations equations{
       [](std::size_t, const Index<D>&) { return false; },
       [&](std::size_t p, const Index<D>& cell) { return equationByLaw<D>(level, flows[p], cell, dt); },
       [&](std::size_t p, const Index<D>& cell) {
         return stiffPressureIn(flows[p], cell) * softnessIn(flows[p], cell);
       }};
-  solveForChange<D>(patches, ranks, settings, flows, guess, fresh, totals, equations);
+  solveForChange<D>(patches, workers, settings, flows, guess, fresh, totals, equations);
 }
 
 /// Calls `use(laws)` with the laws of two or three gases.

@@ -208,7 +208,7 @@ ChangeEquations(IsEmpty, EquationOf, ScaleOf, FillRow) -> ChangeEquations<IsEmpt
 /// is relative to the largest pressure in that unit, or to the right-hand side if it is larger. Throws NumericalError
 /// if the solver fails.
 template <int D, int K, class Equations>
-void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
+void solveForChange(const RankPatches& patches, const Workers& workers, const IceSettings& settings,
                     const std::vector<FaceFlow<D, K>>& flows, const std::vector<CellView<const double>>& guess,
                     const std::vector<PressureViews>& fresh, const SolveTotals& totals, const Equations& equations) {
   const auto old = [&](std::size_t p, const Index<D>& cell) {
@@ -216,24 +216,28 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
   };
   std::vector<CellView<double>> changes;
   std::vector<CellView<const double>> first;
-  double greatest = 0;
+  std::vector<double> greatest(patches.size(), 0.0);
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const CellView<double>& change = changes.emplace_back(fresh[p].change);
-    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
-      change[cell] = equations.isEmpty(p, cell) ? 0 : guess[p][cell] - old(p, cell);
-      greatest = std::max(greatest, std::abs(equations.scaleOf(p, cell)));
-    });
     first.emplace_back(change.values(), change.stored(), change.box());
   }
-  const double scale = ranks.max(greatest) * std::sqrt(static_cast<double>(patches.front()->level().cells().size()));
-  numerics::CellSystem<D> system(patches, ranks);
+  forEachOn(workers, patches, [&](std::size_t p) {
+    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
+      changes[p][cell] = equations.isEmpty(p, cell) ? 0 : guess[p][cell] - old(p, cell);
+      greatest[p] = std::max(greatest[p], std::abs(equations.scaleOf(p, cell)));
+    });
+  });
+  const double scale = workers.ranks.max(std::ranges::max(greatest)) *
+                       std::sqrt(static_cast<double>(patches.front()->level().cells().size()));
+  numerics::CellSystem<D> system(patches, workers);
   const solvers::Outcome outcome = system.solve(settings.solver, first, equations.equationOf, scale, equations.fillRow);
   system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
                             ", or a smaller <delt_max>");
   system.take(changes);
-  for (std::size_t p = 0; p < patches.size(); ++p)
+  forEachOn(workers, patches, [&](std::size_t p) {
     forEach<D>(patches[p]->cells(),
                [&](const Index<D>& cell) { fresh[p].atEnd[cell] = old(p, cell) + changes[p][cell]; });
+  });
   totals.iterations.add(outcome.krylovIterations);
   solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
 }
@@ -241,7 +245,7 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
 /// Solves for the change of pressure in the step [Pa], given the state before it, and computes the pressure at the end.
 /// Throws NumericalError if the solver gives up.
 template <int D>
-void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& method,
+void solvePressure(const RankPatches& patches, const Workers& workers, const euler::Settings& method,
                    const IceSettings& settings, double time, double dt, const std::vector<euler::OldState<D>>& before,
                    const std::vector<CellView<const double>>& guess, const std::vector<PressureViews>& fresh,
                    const SolveTotals& totals) {
@@ -249,7 +253,8 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
   std::vector<FaceFlow<D>> flows;
   for (std::size_t p = 0; p < patches.size(); ++p)
-    flows.emplace_back(level, method, settings, rules, patches[p]->cells(), dt).hold(patches[p]->cells(), before[p]);
+    flows.emplace_back(level, method, settings, rules, patches[p]->cells(), dt);
+  forEachOn(workers, patches, [&](std::size_t p) { flows[p].hold(patches[p]->cells(), before[p]); });
   const auto none = [](std::size_t, const Index<D>&) { return false; };
   if (method.gas.law) {
     const ChangeEquations equations{
@@ -257,7 +262,7 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
         [&](std::size_t p, const Index<D>& cell) {
           return stiffPressureIn(flows[p], cell) * softnessIn(flows[p], cell);
         }};
-    return solveForChange<D>(patches, ranks, settings, flows, guess, fresh, totals, equations);
+    return solveForChange<D>(patches, workers, settings, flows, guess, fresh, totals, equations);
   }
   const ChangeEquations equations{
       none, [&](std::size_t p, const Index<D>& cell) { return pressureEquation<D>(level, flows[p], cell, dt); },
@@ -265,7 +270,7 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
       [&](std::size_t p, const Index<D>& row, int count, const solvers::BoxRow<D>& to) {
         fillPressureEquations<D>(flows[p], row, count, dt, to);
       }};
-  solveForChange<D>(patches, ranks, settings, flows, guess, fresh, totals, equations);
+  solveForChange<D>(patches, workers, settings, flows, guess, fresh, totals, equations);
 }
 
 }  // namespace tushar::ice

@@ -210,10 +210,10 @@ struct GasAtWalls {
 /// Solves for the change of the pressure of the gas in the step [Pa], and computes the pressure at the end. Throws
 /// NumericalError if the solver gives up.
 template <int D>
-void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings,
-                         double time, double dt, const std::vector<GasAtWalls<D>>& gas,
-                         const std::vector<GasInCells<D>>& cells, const std::vector<CellView<const double>>& guess,
-                         const std::vector<ice::PressureViews>& fresh, const ice::SolveTotals& totals) {
+void solvePressureBeside(const RankPatches& patches, const Workers& workers, const Settings& settings, double time,
+                         double dt, const std::vector<GasAtWalls<D>>& gas, const std::vector<GasInCells<D>>& cells,
+                         const std::vector<CellView<const double>>& guess, const std::vector<ice::PressureViews>& fresh,
+                         const ice::SolveTotals& totals) {
   const Level& level = patches.front()->level();
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas.gas, time);
   std::vector<ice::FaceFlow<D>> flows;
@@ -221,12 +221,11 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
   std::vector<NearBodies<D>> near;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     near.emplace_back(patches[p]->cells(), nearLayers, cells[p].free, cells[p].held.density);
-    flows
-        .emplace_back(level, settings.gas, *settings.implicit, rules, patches[p]->cells(), dt,
-                      flatAtBodies<D>(*patches[p], cells[p]))
-        .hold(patches[p]->cells(), gas[p].alone.state);
+    flows.emplace_back(level, settings.gas, *settings.implicit, rules, patches[p]->cells(), dt,
+                       flatAtBodies<D>(*patches[p], cells[p]));
     spaces.emplace_back(level, settings, cells[p]);
   }
+  forEachOn(workers, patches, [&](std::size_t p) { flows[p].hold(patches[p]->cells(), gas[p].alone.state); });
   const ice::ChangeEquations equations{
       [&](std::size_t p, const Index<D>& cell) {
         const double roundOff = 1e-12 * (pressureOfNothing + settings.gas.gas.pInfinity);
@@ -240,7 +239,7 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
       [&](std::size_t p, const Index<D>& cell) {
         return spaces[p].isEmpty(cell) ? 0.0 : ice::stiffPressureIn(flows[p], cell);
       }};
-  ice::solveForChange<D>(patches, ranks, *settings.implicit, flows, guess, fresh, totals, equations);
+  ice::solveForChange<D>(patches, workers, *settings.implicit, flows, guess, fresh, totals, equations);
 }
 
 /// Computes the pressure of the gas on walls. It is the pressure at the end of the step; for approaching walls, the
