@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <stdexcept>
@@ -146,6 +147,25 @@ TEST(Threads, AreAllowedAsTheLauncherSaysAndAtLeastOne) {
   EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "1"), 1);
   EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "0"), all);
   EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "100000"), all);
+}
+
+TEST(Threads, WorkThatIsCalledOnceMayRunLoopsWhoseTimeCountsOnce) {
+  Threads threads(2);
+  std::atomic<int> calls = 0;
+  const auto spin = [&](int) {
+    const auto end = trace::Clock::now() + std::chrono::milliseconds(2);
+    while (trace::Clock::now() < end) continue;
+    ++calls;
+  };
+  const auto start = trace::Clock::now();
+
+  threads.alone([&] { threads.forEach(4, spin); }, trace::Kind::task, "outer");
+
+  const double wall = std::chrono::duration<double>(trace::Clock::now() - start).count();
+  EXPECT_EQ(calls, 4);
+  EXPECT_LE(threads.use().loops, wall);
+  EXPECT_LE(threads.use().task, 2 * wall);
+  EXPECT_GE(threads.use().task, 4 * .002);
 }
 
 }  // namespace tushar

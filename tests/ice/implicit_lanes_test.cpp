@@ -87,8 +87,13 @@ TEST(ImplicitLanes, HaveTheEquationsOfSingleCells) {
   flow.hold(gas.box(), gas.before());
   solvers::BoxSystem system({{cells, cells, 1}, {}});
   const solvers::BoxShape& shape = system.matrix.shape;
-  for (int y = 0; y < cells; ++y)
-    fillPressureEquations<2>(flow, Index<2>{{0, y}}, cells, dt, solvers::BoxRow<2>(system, shape.offset(0, y, 0)));
+  std::array<std::vector<double>, 3>& links = system.matrix.links;
+  for (int y = 0; y < cells; ++y) {
+    const std::ptrdiff_t at = shape.offset(0, y, 0);
+    const solvers::BoxRow<2> row{
+        system.matrix.diagonal.data() + at, system.b.data() + at, {links[0].data() + at, links[1].data() + at}};
+    fillPressureEquations<2>(flow, Index<2>{{0, y}}, cells, dt, row);
+  }
   forEach<2>(gas.box(), [&](const Index<2>& cell) {
     const numerics::CellEquation<2> one = pressureEquation<2>(gas.level, flow, cell, dt);
     const std::ptrdiff_t at = shape.offset(cell[0], cell[1], 0);

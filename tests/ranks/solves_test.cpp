@@ -88,8 +88,8 @@ TEST(Solves, GiveTheSameFieldOfPoissonsEquationOnAnyRanks) {
   expectSameBits("ups/poisson/sine.ups", "c.phi", {patches, "Time/max_Timesteps=2"});
 }
 
-// 64 planes in slabs of 32 and 16, with 131072 cells. Ranks share the next level, too, and each computes the one after it
-// by itself.
+// 64 planes in slabs of 32 and 16, with 131072 cells. Ranks share the next level, too, and each computes the one after
+// it by itself.
 TEST(Solves, GiveTheSameFieldInThreeDimensionsOnAnyRanks) {
   expectSameBits("ups/poisson/sine.ups", "c.phi",
                  {"Grid/Level/Box/patches=[2,2,2]", "Grid/Level/Box/resolution=[64,32,64]", "Time/max_Timesteps=1"});
