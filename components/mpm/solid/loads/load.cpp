@@ -98,7 +98,8 @@ bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, Loa
             const double end = (kind == LoadKind::torque ? 0.9 : 1.2) * spacing.minCoeff(),
                          side = forHeat ? 0.5 * spacing.norm() : end;
             const double height = (c.top - c.bottom).norm();
-            if (isEnd(c)) return place.height >= -end && place.height <= height + end && place.radius <= c.radius;
+            if (isEnd(c) && kind != LoadKind::torque)
+              return place.height >= -end && place.height <= height + end && place.radius <= c.radius;
             return place.height >= 0 && place.height <= height && std::abs(place.radius - c.radius) <= side;
           },
           [&](const input::Sphere& s) { return std::abs((point - s.origin).norm() - s.radius) <= spacing.norm(); }},

@@ -110,6 +110,16 @@ TEST(Torque, OfAllParticlesIsThatOfTheCurve) {
   EXPECT_EQ(load.force(Vec3(1, 0, 2), 0), Vec3::Zero()) << "on the axis";
 }
 
+TEST(Torque, ActsOnTheSideEvenIfTheShapeIsAnEnd) {
+  input::Cylinder end = upright();
+  end.cylinderEnd = true;
+  const Vec3 spacing = Vec3::Constant(0.1), beside(2.95, 0, 1.5), within(1.5, 0, 2.95);
+  EXPECT_TRUE(isAlong(end, beside, spacing, LoadKind::torque));
+  EXPECT_FALSE(isAlong(end, within, spacing, LoadKind::torque));
+  EXPECT_FALSE(isAlong(end, beside, spacing, LoadKind::pressure));
+  EXPECT_TRUE(isAlong(end, within, spacing, LoadKind::pressure));
+}
+
 /// A particle whose initial edges are .2, .4 and 1 m.
 ParticleBox particleAt(const Vec3& middle, const Matrix3& f = Matrix3::Identity()) {
   const Matrix3 start = Vec3(0.2, 0.4, 1).asDiagonal();
