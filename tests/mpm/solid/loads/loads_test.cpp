@@ -113,7 +113,7 @@ TEST(Torque, OfAllParticlesIsThatOfTheCurve) {
 TEST(Torque, ActsOnTheSideEvenIfTheShapeIsAnEnd) {
   input::Cylinder end = upright();
   end.cylinderEnd = true;
-  const Vec3 spacing = Vec3::Constant(0.1), beside(2.95, 0, 1.5), within(1.5, 0, 2.95);
+  const Vec3 spacing = Vec3::Constant(0.1), beside(3.05, 0, 1.5), within(1.5, 0, 2.95);
   EXPECT_TRUE(isAlong(end, beside, spacing, LoadKind::torque));
   EXPECT_FALSE(isAlong(end, within, spacing, LoadKind::torque));
   EXPECT_FALSE(isAlong(end, beside, spacing, LoadKind::pressure));
