@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/numerics/box_system.hpp"
+#include "core/numerics/box_of_cells.hpp"
 #include "core/numerics/diffusion.hpp"
 #include "core/solvers/direct.hpp"
 #include "core/solvers/numbering.hpp"
@@ -73,6 +73,7 @@ class CellSystem {
                                  double scale) {
     const bool isRefined = grid_.levels() > 1;
     number_.emplace(grid_);
+    unknowns_.owned = number_->owned();
     unknowns_.ghosts = number_->ghosts();
     unknowns_.entries.assign(number_->owned(), Balance<D>::most);
     if (isRefined) meetOthers(equationOf);

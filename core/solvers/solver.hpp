@@ -35,7 +35,7 @@ class Matrix {
 
 /// Settings for linear systems, with PETSc's names. The solver `automatic` factorizes a small system on one rank, and
 /// takes a Krylov method for others: gmres in Newton's method, and otherwise cg. The preconditioner `multigrid` is
-/// BoxMultigrid for the cells of a box on one rank, and otherwise hypre.
+/// BoxMultigrid for the cells of a grid of one level, and otherwise hypre.
 struct LinearSettings {
   std::string solver = "cg", preconditioner = "multigrid";
   double tolerance = 1e-10;  ///< tolerance: largest residual, relative to the right-hand side
