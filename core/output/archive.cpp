@@ -47,6 +47,7 @@ struct Archive::State {
   XdmfIndex xdmf;
   GlobalFiles globals{folder};
   Pace pace;  ///< when to write the lists
+  std::vector<std::string> damages;  ///< of the `.dat` files of the run that is continued
   int last_step = -1;
   Pace vtkhdf_pace;  ///< when to write the VTKHDF files, which takes longer
 };
@@ -75,7 +76,7 @@ Archive::Archive(const fs::path& folder, const std::string& name, const ArchiveP
                  const ArchiveOptions& options)
     : state_(std::make_unique<State>(folder, name, from, options)) {
   if (textOf(folder / "input.xml") != inputXml) replaceFileOnDisk(folder / "input.xml", inputXml);
-  state_->globals.resume(state_->index.globals(), from.time);
+  state_->damages = state_->globals.resume(state_->index.globals(), from.time);
   state_->writeLists();
   std::error_code ignored;
   if (state_->last_step < 0) fs::remove(state_->xdmf.file(), ignored);
@@ -131,6 +132,8 @@ void Archive::sync() const {
 ArchivePoint Archive::pointAt(int step, double time) const { return {step, time, state_->index.text()}; }
 
 const fs::path& Archive::folder() const { return state_->folder; }
+
+const std::vector<std::string>& Archive::damages() const { return state_->damages; }
 
 int Archive::lastStep() const { return state_->last_step; }
 

@@ -79,6 +79,9 @@ class Archive {
 
   /// The folder of this run, such as `sod.uda.001`.
   const std::filesystem::path& folder() const;
+  /// Sentences about `.dat` files of the run that is continued which lack lines; new lines are added to them all the
+  /// same.
+  const std::vector<std::string>& damages() const;
   /// The step of the last write(); -1 before the first one.
   int lastStep() const;
 

@@ -1,6 +1,10 @@
 #include "core/output/archive_cut.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
+#include <limits>
 #include <pugixml.hpp>
 #include <system_error>
 #include <vector>
@@ -20,6 +24,20 @@ std::string linesUpTo(const std::string& lines, double time) {
     if (at > time) break;
   }
   return lines.substr(0, kept);
+}
+
+std::string damageBefore(const std::string& lines, const std::string& kept, double time) {
+  double next = 0, last = -std::numeric_limits<double>::infinity();
+  const char* const end = lines.data() + lines.size();
+  if (lines.find('\n', kept.size()) != std::string::npos) {
+    if (std::from_chars(lines.data() + kept.size(), end, next).ec == std::errc()) return "";
+    return fmt::format("line {} is no sample, so this line and those after it are lost",
+                       std::count(kept.begin(), kept.end(), '\n') + 1);
+  }
+  const std::size_t before = kept.size() > 1 ? kept.rfind('\n', kept.size() - 2) : std::string::npos;
+  const std::size_t start = before == std::string::npos ? 0 : before + 1;
+  if (std::from_chars(kept.data() + start, kept.data() + kept.size(), last).ec != std::errc()) return "has no samples";
+  return last < time ? fmt::format("its samples after t = {:g} s are lost", last) : "";
 }
 
 void removeUnlisted(const fs::path& folder, const ArchiveIndex& index) {

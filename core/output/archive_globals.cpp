@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <system_error>
 
 #include "core/output/archive_cut.hpp"
@@ -44,13 +45,18 @@ bool GlobalFiles::append(const GlobalSample& sample) {
   return isNew;
 }
 
-void GlobalFiles::resume(const std::vector<std::string>& globals, double time) {
+std::vector<std::string> GlobalFiles::resume(const std::vector<std::string>& globals, double time) {
+  std::vector<std::string> damages;
   for (const std::string& name : globals) {
-    const std::string lines = textOf(pathOf(name)).value_or(""), kept = linesUpTo(lines, time);
+    const std::optional<std::string> found = textOf(pathOf(name));
+    const std::string lines = found.value_or(""), kept = linesUpTo(lines, time);
+    const std::string damage = found ? damageBefore(lines, kept, time) : "is missing";
+    if (!damage.empty()) damages.push_back(fmt::format("{}: {}", pathOf(name).string(), damage));
     if (kept.empty()) continue;
     if (kept != lines) replaceFile(pathOf(name), kept);
     files_.emplace(name, AppendFile(pathOf(name)));
   }
+  return damages;
 }
 
 void GlobalFiles::sync() const {

@@ -21,8 +21,9 @@ class GlobalFiles {
   /// Adds a line to the file of a global quantity; the first sample of a quantity replaces an old file. Returns whether
   /// this sample was the first.
   bool append(const GlobalSample& sample);
-  /// Continues the files of these global quantities, without the lines after `time` [s].
-  void resume(const std::vector<std::string>& globals, double time);
+  /// Continues the files of these global quantities, without the lines after `time` [s]. Returns a sentence for each
+  /// file that lacks earlier lines.
+  std::vector<std::string> resume(const std::vector<std::string>& globals, double time);
   /// Waits until all lines are on the disk.
   void sync() const;
 

@@ -75,6 +75,8 @@ void Outputs::reopenArchive(const output::ArchiveOptions& how) {
   const output::ArchivePoint from = archivePointOf(run_);
   output::CheckpointStore(restart.archive, 1).goBackTo(restart.step);
   archive_ = std::make_unique<output::Archive>(restart.archive, problem.archive.filebase, from, problem.inputXml, how);
+  for (const std::string& damage : archive_->damages())
+    if (warn_) warn_(damage);
   run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} continues in {}", run_.time.step(), run_.time.time(),
                                  archive_->folder().string()));
 }

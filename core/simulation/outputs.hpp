@@ -26,6 +26,7 @@ class Outputs {
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
 
+  void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
   /// Locks the folder of the run that is continued. Throws FileError if another process has locked it.
   void lockArchive();
   /// Creates an archive if the scene has outputs, globals, samples or checkpoints. A restarted run, which has read its
@@ -97,6 +98,7 @@ class Outputs {
   Milestones times_;
   output::Behind behind_;
   std::optional<OnItsWay> on_its_way_;
+  std::function<void(const std::string&)> warn_;
   std::exception_ptr failure_;  ///< exception of rank 0
   int last_ = -1;               ///< step of the last output
   bool saves_ = false;          ///< whether the scene has outputs, globals or samples

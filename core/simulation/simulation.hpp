@@ -38,7 +38,10 @@ class Simulation {
   /// Sets the entry of run.json for the program and its command line.
   void setRecord(output::RunRecord record) { record_ = std::move(record); }
   /// Sets a function that is called on rank 0 with messages about damaged checkpoints.
-  void setWarning(std::function<void(const std::string&)> warn) { checkpoints_.setWarning(std::move(warn)); }
+  void setWarning(const std::function<void(const std::string&)>& warn) {
+    checkpoints_.setWarning(warn);
+    outputs_.setWarning(warn);
+  }
   /// Runs until the end of the scene, an interrupt, a file `stop_now` in the archive, or an invalid value. The report
   /// then names the invalid value, and the last complete step is saved. Throws TaskError, FileError, and NumericalError
   /// for an invalid value at the start.

@@ -138,6 +138,33 @@ TEST(ArchiveResume, StoresTheSceneWithWhatWasOverridden) {
   EXPECT_EQ(contents(archive.folder()).at("input.xml"), "<scene>longer</scene>");
 }
 
+TEST(ArchiveResume, SaysWhichGlobalsLackLines) {
+  const TemporaryFolder here;
+  const ArchivePoint point = runToStep7(here / "sod.uda");
+  const fs::path folder = here / "sod.uda.000", file = folder / "KineticEnergy.dat";
+  const auto damages = [&] { return Archive(folder, "sod.uda", point, "<scene/>", options).damages(); };
+  EXPECT_TRUE(damages().empty());
+  fs::remove(file);
+  ASSERT_EQ(damages().size(), 1u);
+  EXPECT_EQ(damages().front(), file.string() + ": is missing");
+}
+
+TEST(ArchiveResume, FindsWhatAFileOfSamplesLacks) {
+  const std::string lines = "# time [s]\n0 1\n0.1 2\n0.2 3\n";
+  const auto damage = [](const std::string& text, double time) {
+    return damageBefore(text, linesUpTo(text, time), time);
+  };
+  EXPECT_EQ(damage(lines, 0.2), "");
+  EXPECT_EQ(damage(lines, 0.15), "") << "the run was ahead of its checkpoint";
+  EXPECT_EQ(damage(lines + "0.3 ", 0.2), "") << "a torn line of a killed run";
+  EXPECT_EQ(damage(lines, 0.3), "its samples after t = 0.2 s are lost");
+  EXPECT_EQ(damage(lines + "0.3 ", 0.3), "its samples after t = 0.2 s are lost");
+  EXPECT_EQ(damage("# time [s]\n0 1\nx 2\n0.2 3\n", 0.2),
+            "line 3 is no sample, so this line and those after it are lost");
+  EXPECT_EQ(damage("# time [s]\n", 0.2), "has no samples");
+  EXPECT_EQ(damage("", 0.2), "has no samples");
+}
+
 TEST(ArchiveResume, KeepsTheLinesUpToATimeAndNoTornOne) {
   const std::string lines = "# time [s]\n0 1\n0.1 2\n0.30000000000000004 3\n0.4 4\n";
   EXPECT_EQ(linesUpTo(lines, 0.1 * 3), "# time [s]\n0 1\n0.1 2\n0.30000000000000004 3\n");
