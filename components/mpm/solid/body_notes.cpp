@@ -21,7 +21,7 @@ bool hasParticle(const Level& level, const Body& body, const input::Box3& region
     cells.upper[D - 1] = slab + 1;
     forEach<D>(cells, [&](const Index<D>& cell) {
       if (!found)
-        forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3& at) { found = found || test(at); });
+        forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3& at, double) { found = found || test(at); });
     });
   }
   return found;
@@ -45,6 +45,18 @@ bool overlap(const Level& level, const Body& one, const Body& other) {
   return ((common.max - common.min).array() >= 0).all() && (startsIn(one, other) || startsIn(other, one));
 }
 
+/// Adds a note if the body starts with a velocity along an axis of which the grid has one cell.
+void noteLostVelocity(const Level& level, const Body& body, std::vector<InputProblem>& notes) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (level.domain().resolution[axis] > 1) continue;
+    const input::Expression& velocity = body.velocity[axis];
+    if (velocity.isConstant() && velocity(Vec3::Zero()) == 0) continue;
+    notes.push_back({body.where, tagOfBodies,
+                     fmt::format("its velocity along {}, {} m/s, does not count: the grid has one cell along {}",
+                                 "xyz"[axis], velocity.text(), "xyz"[axis])});
+  }
+}
+
 template <int D>
 std::vector<InputProblem> notesOn(const Level& level, const Problem& problem) {
   std::vector<InputProblem> notes;
@@ -53,6 +65,7 @@ std::vector<InputProblem> notesOn(const Level& level, const Problem& problem) {
       const Body& body = material.bodies[k];
       if (isEmpty<D>(level, body))
         notes.push_back({body.where, tagOfBodies, "has no particles: it is outside the grid, or too small for <res>"});
+      noteLostVelocity(level, body, notes);
       for (std::size_t before = 0; before < k && problem.insertions.empty(); ++before)
         if (const Body& other = material.bodies[before]; overlap<D>(level, body, other)) {
           notes.push_back({body.where, tagOfBodies,

@@ -20,6 +20,7 @@ struct Body {
   input::VectorExpression velocity;    ///< velocity [m/s]
   input::Expression temperature;       ///< temperature [K]
   double color = 0;
+  bool fillsDepth = false;  ///< whether a particle that starts in the body is as deep as the grid, as gas requires
   int levels = 1;  ///< number of particle sizes that fill the shape; negative: no particle extends beyond the shape
   /// Rows of A, and b: the body's particles start at A X + b [m] instead of X.
   Vec3 affineRow0 = Vec3::UnitX(), affineRow1 = Vec3::UnitY(), affineRow2 = Vec3::UnitZ(), affineShift = Vec3::Zero();
@@ -43,8 +44,29 @@ Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const I
   return level.expandPoint<D>(at);
 }
 
-/// Calls `visit(k, point)` for each particle of a body that starts in a cell: `k` is its index in the cell, `point` its
-/// position [m], rounded by placeOf.
+/// The part of the depth of the grid that the body fills at a point: the share of its layers of particles, along the
+/// axes with one cell, that lie in the shape.
+template <int D>
+double depthAt(const Level& level, const Body& body, const Vec3& point) {
+  Index3 layers = body.particlesPerCell;
+  for (int axis = 0; axis < 3; ++axis)
+    if (body.fillsDepth || level.cellWidth(axis) == 0) layers[axis] = 1;
+  for (int d = 0; d < D; ++d) layers[level.axis(d)] = 1;
+  int inside = 0;
+  forEach<3>(Box{{}, layers}, [&](const Index3& k) {
+    Vec3 at = point;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (layers[axis] == 1) continue;
+      const double apart = level.cellWidth(axis) / layers[axis];
+      at[axis] = (level.domain().lower[axis] + apart * 0.5) + apart * k[axis];
+    }
+    inside += body.shape->contains(at);
+  });
+  return inside / static_cast<double>(layers[0] * layers[1] * layers[2]);
+}
+
+/// Calls `visit(k, point, depth)` for each particle of a body that starts in a cell: `k` is its index in the cell,
+/// `point` its position [m], rounded by placeOf, and `depth` its share of the depth of the grid.
 template <int D, class Visit>
 void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cell, Visit&& visit) {
   if (!level.isInside<D>(cell)) return;
@@ -52,7 +74,7 @@ void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cel
   for (int d = 0; d < D; ++d) places.upper[d] = body.particlesPerCell[level.axis(d)];
   forEach<D>(places, [&](const Index<D>& k) {
     const Vec3 point = placeOf<D>(level, body, cell, k);
-    if (body.shape->contains(point)) visit(k, point);
+    if (const double depth = depthAt<D>(level, body, point); depth > 0) visit(k, point, depth);
   });
 }
 

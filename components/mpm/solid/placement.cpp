@@ -40,6 +40,7 @@ Vec3 inCells(const Level& level) {
 struct Filling {
   Vec3 at, spacing;  ///< position and spacing [m]
   double share;      ///< ratio of its extent to that of the largest particle [1]
+  double depth;      ///< its share of the depth of the grid [1]
 };
 
 /// Whether the eight points a quarter of `spacing` away lie in a shape; axes without width are ignored.
@@ -61,12 +62,12 @@ void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k,
   Body finer = body;
   for (int d = 0; d < D; ++d) finer.particlesPerCell[level.axis(d)] *= 1 << k;
   const std::vector<Filling> before = particles;
-  forEachParticleIn<D>(level, finer, cell, [&](const Index<D>&, const Vec3& at) {
+  forEachParticleIn<D>(level, finer, cell, [&](const Index<D>&, const Vec3& at, double depth) {
     for (const Filling& one : before)
       if (overlaps(one, at)) return;
     Vec3 spacing = widthsOf(level);
     for (int axis = 0; axis < 3; ++axis) spacing[axis] /= finer.particlesPerCell[axis];
-    particles.push_back({at, spacing, 1.0 / (1 << k)});
+    particles.push_back({at, spacing, 1.0 / (1 << k), depth});
   });
 }
 
@@ -117,7 +118,7 @@ void seedFilling(const Level& level, const Body& body, const Index<D>& cell, See
     for (int d = 0; d < D; ++d) edges[level.axis(d)] *= one.share;
     const Vec3 at = matrix * one.at + body.affineShift;
     const Vec3 lengths = (widths.array() > 0).select(edges.cwiseProduct(widths), edges);
-    double volume = matrix.determinant();
+    double volume = one.depth * matrix.determinant();
     for (int d = 0; d < D; ++d) volume *= edges[level.axis(d)];
     add<D>(level, body, {at, inverse.asDiagonal() * matrix * lengths.asDiagonal(), volume}, seeds);
   }

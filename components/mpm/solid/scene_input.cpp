@@ -93,7 +93,10 @@ void refuseSizesAroundAxis(const Problem& problem) {
 
 void settleParticles(const Level& level, Problem& problem, bool isGimp) {
   if (problem.start.axisymmetric) refuseSizesAroundAxis(problem);
-  for (Material& material : problem.materials) placeParticles(level, material.bodies);
+  for (Material& material : problem.materials) {
+    for (Body& body : material.bodies) body.fillsDepth = problem.surroundings != nullptr;
+    placeParticles(level, material.bodies);
+  }
   if (isGimp) refuseWideParticles(level, problem.materials);
   countParticles(level, problem.materials, problem.start.loads.surfaces);
   settleSizes(problem);

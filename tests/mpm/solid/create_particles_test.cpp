@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "core/input/geometry/shapes.hpp"
+#include "tests/support/levels.hpp"
 #include "tests/support/run.hpp"
 
 namespace tushar::mpm::solid {
@@ -59,6 +62,35 @@ std::map<std::pair<int, int>, int> made(const grid::Domain& domain, double shift
 
 using Counts = std::map<std::pair<int, int>, int>;
 
+/// The mass of a ball of radius .05 m and 1 kg/m^3, whose centre is `height` above the bottom of a sheet .1 m thick.
+double massOfBall(double height, const Index3& particlesPerCell, int levels, bool fillsDepth) {
+  test::Runner run(test::sheet());
+  auto ball = std::make_shared<input::Sphere>();
+  ball->origin = Vec3(0.01, 0.02, height);
+  ball->radius = 0.05;
+  Body body;
+  body.shape = ball;
+  body.particlesPerCell = particlesPerCell;
+  body.levels = levels;
+  body.fillsDepth = fillsDepth;
+  std::vector<Material> materials(1);
+  materials[0].density = 1;
+  materials[0].bodies.push_back(body);
+  placeParticles(run.grid.finest(), materials[0].bodies);
+  TaskList list;
+  list.newParticles("create", actuallyInitialize<2>, materials, with(Start()), all<NewParticles<2>>());
+  const data::ReductionLabel<Sum> mass{"mass", "kg", "mass"};
+  list.perMaterial(
+      "sum",
+      [](const Patch&, const Material&, ParticleView<const double> masses, Sum& sum) {
+        for (int p = 0; p < masses.owned(); ++p) sum.add(masses[p]);
+      },
+      materials, requiresNew(p::mass), computes(mass));
+  tasks::TaskGraph graph = run.compile(list, {"p.x", "p.mass", "p.particleID", "mass"});
+  run.step(graph);
+  return run.warehouse.reductionValues(run.table.find("mass", -1)).at(0);
+}
+
 }  // namespace
 
 TEST(CreateParticles, MakeThemInTheFinestCells) {
@@ -69,6 +101,17 @@ TEST(CreateParticles, MakeThemInTheFinestCells) {
 TEST(CreateParticles, HaveOneInACoarserCellForAllThatAreTooFineForIt) {
   EXPECT_EQ(made(row(0, 0), 0), (Counts{{{0, 9}, 1}, {{0, 10}, 1}}));
   EXPECT_EQ(made(row(0, 0), 1.0 / 1024), (Counts{{{0, 9}, 1}, {{0, 10}, 1}}));
+}
+
+TEST(CreateParticles, HaveThePartOfTheDepthThatTheirBodyFills) {
+  const double volume = 4.0 / 3 * std::numbers::pi * std::pow(0.05, 3), depth = 0.1;
+  const double disc = std::numbers::pi * std::pow(0.05, 2) * depth;
+  for (const int levels : {1, 2}) {
+    EXPECT_NEAR(massOfBall(0.05, {{32, 32, 32}}, levels, false) / volume, 1, 0.02);
+    EXPECT_NEAR(massOfBall(0, {{32, 32, 32}}, levels, false) / volume, 0.5, 0.02) << "half of it is below the sheet";
+    EXPECT_NEAR(massOfBall(0.05, {{32, 32, 1}}, levels, false) / disc, 1, 0.02) << "one layer, in the middle";
+    EXPECT_NEAR(massOfBall(0.05, {{32, 32, 32}}, levels, true) / disc, 1, 0.02);
+  }
 }
 
 }  // namespace tushar::mpm::solid

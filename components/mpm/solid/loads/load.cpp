@@ -49,7 +49,7 @@ void forEachParticle(const grid::Level& level, const Body& body, Visit&& visit) 
     return;
   }
   grid::forEach<D>(level.cells(), [&](const Index<D>& cell) {
-    forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3& point) { visit(point); });
+    forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3& point, double) { visit(point); });
   });
 }
 

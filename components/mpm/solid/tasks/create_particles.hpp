@@ -150,8 +150,8 @@ std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Bod
   const input::Box3 bounds = body.shape->bounds();
   forEach<D>(finest.cellsNear(bounds.min, bounds.max).intersect(cells), [&](const Index<D>& cell) {
     if (!found)
-      forEachParticleIn<D>(finest, body, cell, [&](const Index<D>&, const Vec3& at) {
-        take({at, part.domain, part.volume});
+      forEachParticleIn<D>(finest, body, cell, [&](const Index<D>&, const Vec3& at, double depth) {
+        take({at, part.domain, depth * part.volume});
       });
   });
   return found;
@@ -232,7 +232,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
           return;
         }
         const Seed part = partOfCell<D>(level, body.particlesPerCell);
-        forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place) {
+        forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place, double depth) {
           Vec<D> at;
           for (int d = 0; d < D; ++d)
             at[d] = level.nodePosition(d, 0) +
@@ -245,7 +245,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
           }
           if (!patch.cells().contains(home)) return;
           maker.add(home, id);
-          particles.add(level, start, material, body, at, {place, part.domain, part.volume});
+          particles.add(level, start, material, body, at, {place, part.domain, depth * part.volume});
         });
       });
 }
