@@ -19,7 +19,7 @@ enum class Number { real, id, integer };
 
 /// The nodes on which the values of a node variable are defined: all nodes, or only those that particles of its
 /// material touch. In the second case, patches exchange only the touched nodes (see tasks/near_rows); the values on
-/// other nodes are undefined, and may differ between patches.
+/// other nodes are undefined, and may differ between patches; if the variable is saved, they are 0.
 enum class Counts { everywhere, nearParticles };
 
 /// The properties of a variable of any type that the graph, the archive and messages to users need. Two labels with the

@@ -133,6 +133,11 @@ void Warehouse::allocateGrid(Generation generation, int number) {
     adviseSmallPages(values.memory.data(), values.memory.capacity());
 }
 
+void Warehouse::clear(Generation generation, int number) {
+  Storage& cleared = storage(generation, number);
+  std::fill_n(cleared.memory.data(), cleared.slots->end * (*table_)[number].label->bytes, std::byte{0});
+}
+
 void Warehouse::allocateRims(Generation generation, int number) {
   SharedSlots& slots = grid_slots_[{Centring::rim, 0}];
   if (!slots) slots = slotsOfRims(*grid_);

@@ -123,6 +123,8 @@ class Warehouse {
   /// Allocates a node or cell variable on all patches, with all ghosts that tasks read; filled with NaN in the dev
   /// preset.
   void allocateGrid(Generation generation, int number);
+  /// Sets all values of a variable to 0.
+  void clear(Generation generation, int number);
   /// Allocates the fluxes through the rims of all patches, and sets them to 0.
   void allocateRims(Generation generation, int number);
   /// Allocates a particle variable on all patches, in the slots of the sets of generation `set`; filled with NaN in the

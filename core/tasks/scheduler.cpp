@@ -353,6 +353,7 @@ void Scheduler::allocateOutputs(const MaterialBinding& binding) {
         break;
       default:
         warehouse_->allocateGrid(Generation::fresh, output.variable);
+        if (output.cleared) warehouse_->clear(Generation::fresh, output.variable);
     }
   }
 }

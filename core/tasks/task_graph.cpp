@@ -115,6 +115,11 @@ void TaskGraph::bind(std::size_t t, data::VariableTable& table) {
   tasks_.push_back(std::move(compiled));
 }
 
+/// Whether values outlive the step that no task writes.
+bool TaskGraph::isCleared(const data::Label& label) const {
+  return label.counts == data::Counts::nearParticles && pruned_.needed.contains(std::string(label.name));
+}
+
 MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::VariableTable& table) {
   const Task& task = pruned_.kept[t];
   MaterialBinding binding;
@@ -132,7 +137,7 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
     if (isOfAll && material > task.firstMaterial) continue;  // once for all materials
     if (access.own) binding.shared.push_back({number, set});
     if (access.kind == AccessKind::computes && access.label->centring != Centring::reduction)
-      binding.outputs.push_back({number, set});
+      binding.outputs.push_back({number, set, isCleared(*access.label)});
     if (access.writes() && access.label->bound != data::Bound::none)
       binding.bounded.push_back({number, task.kind == TaskKind::newParticles ? Generation::fresh : set});
   }

@@ -19,6 +19,7 @@ namespace tushar::tasks {
 struct Output {
   int variable;
   data::Generation set;
+  bool cleared = false;  ///< 0 where the task writes nothing: a saved variable with values near particles only
 };
 
 /// The part of a kept task that depends on the material.
@@ -87,6 +88,7 @@ class TaskGraph {
 
  private:
   void bind(std::size_t t, data::VariableTable& table);
+  bool isCleared(const data::Label& label) const;
   MaterialBinding bindMaterial(std::size_t t, int material, data::VariableTable& table);
   std::vector<Carried> carriedBy(std::size_t t, int material, data::VariableTable& table) const;
   void checkCreated(std::size_t t, const data::VariableTable& table) const;

@@ -66,10 +66,12 @@ inline constexpr NodeLabel<NodeRecord> smoothRecord{
     "g.smoothRecord", "SI units", "p.velocitySSPlus gathered from particles, and mass", Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s",
-                                                    "velocity after the forces of a step are applied, before contact"};
+                                                    "velocity after the forces of a step are applied, before contact",
+                                                    Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s",
-                                                     "velocity after the forces of a step and contact are applied"};
+                                                     "velocity after the forces of a step and contact are applied",
+                                                     Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
                                                     "contact force on a force-transmitting material"};

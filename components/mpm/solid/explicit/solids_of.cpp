@@ -102,7 +102,8 @@ void SolidsOf<D>::scheduleFriction(TaskList& tasks, const std::string& name, Mom
 
 template <int D>
 void SolidsOf<D>::scheduleKeepVelocity(TaskList& tasks, const NodeLabel<Vec<D>>& kept) const {
-  tasks.perMaterial("mpm::keepVelocity", keepVelocity<D>, problem_.materials, requiresNew(g::record), computes(kept));
+  tasks.perMaterial("mpm::keepVelocity", keepVelocity<D>, problem_.materials, with(shapes_.ghostNodes),
+                    requiresOld(p::x<D>, shapes_.reach), requiresNew(g::record), computes(kept));
 }
 
 template <int D>
@@ -202,7 +203,8 @@ void SolidsOf<D>::scheduleSurroundingForce(TaskList& tasks) const {
 template <int D>
 void SolidsOf<D>::scheduleNodalWork(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeNodalWork", computeNodalWork<D>, problem_.materials, with(problem_.method),
-                    requiresOld(delT), requiresNew(g::record), requiresNew(g::velocityOfForces<D>),
+                    with(shapes_.ghostNodes), requiresOld(p::x<D>, shapes_.reach), requiresOld(delT),
+                    requiresNew(g::record), requiresNew(g::velocityOfForces<D>),
                     when(!problem_.contacts.empty(), requiresNew(g::velocityOfContact<D>)), computes(g::workRecord));
 }
 

@@ -11,6 +11,17 @@ const data::TouchedRows& touchedRows(const ParticleView<const Vec<D>>& particles
   return particles.set().touched(ghostNodes, D);
 }
 
+/// Calls `visit(node)` for each node of the box to which the particles of a view contribute.
+template <int D, class Visit>
+void forEachTouchedNode(const ParticleView<const Vec<D>>& particles, int ghostNodes, const Box& box,
+                        const Visit& visit) {
+  touchedRows<D>(particles, ghostNodes).forEachRow(box, [&](const Index3& first, int end) {
+    Index<D> node;
+    for (int d = 0; d < D; ++d) node[d] = first[d];
+    for (; node[0] < end; ++node[0]) visit(node);
+  });
+}
+
 /// Access to records relative to the node `first`, whose own record need not be stored.
 template <class Record, int D>
 NodeWindow<Record, D> windowFrom(const NodeView<Record>& records, const Index<D>& first) {

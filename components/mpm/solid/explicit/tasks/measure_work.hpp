@@ -31,20 +31,23 @@ void startWork(const Patch&, const Material&, ParticleView<const double> mass, P
   }
 }
 
-/// Copies the current velocity from the records.
+/// Copies the current velocity from the records near particles.
 template <int D>
-void keepVelocity(const Patch&, const Material&, NodeView<const NodeRecord> record, NodeView<Vec<D>> kept) {
-  forEach<D>(kept.box(), [&](const Index<D>& node) { kept[node] = lanes<D>(record[node], lane::velocity); });
+void keepVelocity(const Patch&, const Material&, int ghostNodes, ParticleView<const Vec<D>> x,
+                  NodeView<const NodeRecord> record, NodeView<Vec<D>> kept) {
+  forEachTouchedNode<D>(x, ghostNodes, kept.box(),
+                        [&](const Index<D>& node) { kept[node] = lanes<D>(record[node], lane::velocity); });
 }
 
-/// Computes w at the nodes, and the work per mass at the nodes: of gravity, of the sides of the grid, of contact, and
-/// of damping.
+/// Computes w at the nodes near particles, and the work per mass there: of gravity, of the sides of the grid, of
+/// contact, and of damping.
 template <int D>
-void computeNodalWork(const Patch& patch, const Material&, const Method& method, double dt,
-                      NodeView<const NodeRecord> record, NodeView<const Vec<D>> ofForces,
+void computeNodalWork(const Patch& patch, const Material&, const Method& method, int ghostNodes,
+                      ParticleView<const Vec<D>> x, double dt, NodeView<const NodeRecord> record,
+                      NodeView<const Vec<D>> ofForces,
                       const std::optional<NodeView<const Vec<D>>>& ofContact, NodeView<NodeRecord> work) {
   const Vec<D> gravity = patch.level().reduce<D>(method.gravity);
-  forEach<D>(work.box(), [&](const Index<D>& node) {
+  forEachTouchedNode<D>(x, ghostNodes, work.box(), [&](const Index<D>& node) {
     const Vec<D> before = lanes<D>(record[node], lane::before), after = lanes<D>(record[node], lane::velocity);
     const Vec<D> mean = 0.5 * (before + after), free = ofForces[node];
     const Vec<D> touched = ofContact ? Vec<D>((*ofContact)[node]) : free;
