@@ -197,7 +197,7 @@ void SolidsOf<D>::scheduleSurroundingForce(TaskList& tasks) const {
   if (!problem_.surroundings) return;
   problem_.surroundings->scheduleForces(tasks, problem_.materials, state_);
   tasks.perMaterial("mpm::addSurroundingForce", addSurroundingForce<D>, problem_.materials,
-                    requiresNew(g::surroundingForce<D>), modifies(g::record));
+                    with(shapes_.ghostNodes), requiresOld(p::x<D>, shapes_.reach), requiresNew(g::surroundingForce<D>), modifies(g::record));
 }
 
 template <int D>
