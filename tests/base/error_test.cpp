@@ -22,4 +22,11 @@ TEST(PlaceOf, IsTheOptionThatOverridesAPart) {
   EXPECT_EQ(placeOf({&part, &unknown}, tag).text(), "a.ups:3:5");
 }
 
+TEST(DidYouMean, CountsExchangedNeighboursAsOneMistake) {
+  EXPECT_EQ(didYouMean("mmp", {"impm", "mpm", "mpmice"}), " (did you mean 'mpm'?)");
+  EXPECT_EQ(didYouMean("tpye", {"time", "type"}), " (did you mean 'type'?)");
+  EXPECT_EQ(didYouMean("densty", {"density", "velocity"}), " (did you mean 'density'?)");
+  EXPECT_EQ(didYouMean("quux", {"density", "velocity"}), "");
+}
+
 }  // namespace tushar
