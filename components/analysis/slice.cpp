@@ -177,7 +177,8 @@ class Slice : public Analysis {
 
   std::vector<simulation::OwnFile> files() const override {
     std::vector<simulation::OwnFile> files;
-    for (const Word& plane : settings_.planes) files.push_back({folderOf(plane), plane.where});
+    for (const Word& plane : settings_.planes)
+      if (planeOf(plane.text)) files.push_back({folderOf(plane), plane.where});
     return files;
   }
 

@@ -18,6 +18,7 @@ void addOnce(std::vector<InputProblem>& list, InputProblem one) {
 }  // namespace
 
 void Diagnostics::error(const Location& where, std::string tagPath, std::string sentence) {
+  ++reports_;
   addOnce(problems_, {where, std::move(tagPath), std::move(sentence)});
 }
 

@@ -22,7 +22,9 @@ class Diagnostics {
   const std::vector<InputProblem>& notes() const { return notes_; }
 
   bool any() const { return !problems_.empty(); }
-  std::size_t size() const { return problems_.size(); }
+  /// Number of problems that have been reported, including those that had been reported before: whoever compares two
+  /// sizes learns whether the code between them found a problem.
+  std::size_t size() const { return reports_; }
   /// All problems, grouped by file in the order of each file's first problem, then by line and column.
   std::vector<InputProblem> sorted() const;
   /// Throws InputError with all problems, sorted, if there is any.
@@ -30,6 +32,7 @@ class Diagnostics {
 
  private:
   std::vector<InputProblem> problems_, notes_;
+  std::size_t reports_ = 0;
 };
 
 }  // namespace tushar::input

@@ -25,6 +25,15 @@ TEST(Diagnostics, AreSortedByLineWithinTheirFile) {
             (Lines{"b.ups:2:1: first.", "b.ups:2:5: B: second.", "b.ups:9:1: A: third.", "a.ups:1:1: C: fourth."}));
 }
 
+TEST(Diagnostics, CountReportsOfAKnownProblemToo) {
+  Diagnostics diagnostics;
+  for (std::size_t k = 1; k < 3; ++k) {
+    diagnostics.error(Location{"a.ups", 1, 1}, "", "the section <MaterialProperties> is missing");
+    EXPECT_EQ(diagnostics.size(), k);
+  }
+  EXPECT_EQ(diagnostics.sorted().size(), 1u);
+}
+
 TEST(Diagnostics, ThrowAllProblemsAtOnce) {
   const Document document = documentOf("<Time/><Grid/>");
   Diagnostics diagnostics;

@@ -42,7 +42,9 @@ namespace {
 
 /// Uses one size for the particles of all bodies, if all have the same size.
 void settleSizes(Problem& problem) {
-  const Index3 first = problem.materials.front().bodies.front().particlesPerCell;
+  Index3 first{{1, 1, 1}};
+  for (auto material = problem.materials.rbegin(); material != problem.materials.rend(); ++material)
+    if (!material->bodies.empty()) first = material->bodies.front().particlesPerCell;
   for (int axis = 0; axis < 3; ++axis) problem.method.commonSize[axis] = 1.0 / first[axis];
   problem.method.keepsSizes = problem.start.solution != nullptr;
   for (const Material& material : problem.materials)
