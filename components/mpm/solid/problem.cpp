@@ -4,7 +4,11 @@
 
 namespace tushar::mpm::solid {
 
-std::vector<std::string> Solids::foreignLabels() const { return uintahsLabels; }
+std::vector<std::string> Solids::foreignLabels() const {
+  std::vector<std::string> labels = uintahsLabels;
+  labels.insert(labels.end(), labelsOfSomeScenes.begin(), labelsOfSomeScenes.end());
+  return labels;
+}
 
 simulation::OtherNames Solids::otherNames() const { return olderLabels; }
 

@@ -260,8 +260,17 @@ Contact::Type typeOf(Kind kind) {
   return slides(kind) ? Contact::Type::friction : Contact::Type::singleVelocity;
 }
 
+/// Adds a note if a contact has a master, but does not list those that follow it.
+void noteFollowers(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
+  if (hasMaster(read.kind) && !read.materials)
+    diagnostics.note(tag,
+                     "without <materials>, all materials follow the master; in Uintah, none does: there, bodies move as "
+                     "if there were no contact");
+}
+
 Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
   Contact contact;
+  noteFollowers(read, tag, diagnostics);
   contact.type = typeOf(read.kind);
   contact.actsTwice = read.steps.value_or(hasMaster(read.kind) ? 1 : 2) == 2;
   contact.excluded = read.excluded.value_or(-1);
