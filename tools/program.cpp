@@ -72,6 +72,22 @@ void addCheckpoints(const Arguments& arguments, const std::filesystem::path& nam
   if (archive.filebase.empty()) archive.filebase = name.stem().string() + ".uda";
 }
 
+/// Adds notes on overrides that come too late for a run that is continued, or for a part of it.
+void noteLateOverrides(const std::vector<std::string>& overrides, std::vector<InputProblem>& notes) {
+  for (const std::string& override : overrides) {
+    const std::string path = override.substr(0, override.find('='));
+    const auto note = [&](std::string sentence) {
+      notes.push_back({{"--set " + override, 0, 0}, "", std::move(sentence)});
+    };
+    if (path.starts_with("DataArchiver/filebase"))
+      note("does not change anything: the run goes on in its folder");
+    else if (path.find("/geom_object") != std::string::npos)
+      note("does not change anything: the state of the run is that of its checkpoint");
+    else if (path.starts_with("MaterialProperties/"))
+      note("changes the laws of the materials, but not the masses and states of the checkpoint");
+  }
+}
+
 simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known,
                                 const mpi::Communicator& ranks) {
   const grid::Share share{ranks.rank(), ranks.size()};
@@ -85,6 +101,7 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
   const simulation::Restart restart = findRestart(arguments, ranks);
   simulation::Problem problem = scene::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
   problem.restart = restart;
+  noteLateOverrides(arguments.overrides, problem.notes);
   addCheckpoints(arguments, restart.archive.stem(), problem.archive);
   return problem;
 }

@@ -82,8 +82,46 @@ MeasuredSide sideOf(const SideTag& tag, const Level& level, int axis) {
   return of;
 }
 
+/// What is wrong with the part of a side: empty if nothing is.
+std::string problemOf(const SideTag& tag, const Level& level) {
+  if (!tag.isPart) return tag.start || tag.end ? "<startPt> and <endPt> need extents 'partialFace'" : "";
+  const int axis = tag.side / 2;
+  const grid::Domain& domain = level.domain();
+  const double at = (tag.side % 2 == 0 ? domain.lower : domain.upper)[axis];
+  const double rounding = 1e-9 * (domain.upper[axis] - domain.lower[axis]);
+  for (const Vec3& point : {*tag.start, *tag.end})
+    if (std::abs(point[axis] - at) > rounding)
+      return fmt::format("found a point at {} = {:g} m, expected {:g} m, where this side is", "xyz"[axis], point[axis],
+                         at);
+  for (int d = 0; d < level.dimension(); ++d) {
+    const int along = level.axis(d);
+    if (along == axis) continue;
+    if ((*tag.start)[along] >= (*tag.end)[along])
+      return fmt::format("found endPt at {} = {:g} m, expected more than {:g} m, the coordinate of startPt",
+                         "xyz"[along], (*tag.end)[along], (*tag.start)[along]);
+    if ((*tag.start)[along] >= domain.upper[along] || (*tag.end)[along] <= domain.lower[along])
+      return fmt::format("has no cells of the grid between its points along {}", "xyz"[along]);
+  }
+  return "";
+}
+
+/// Throws InputError for parts that are not on their side, and for cells that two tags would count twice.
+void checkSides(const std::vector<SideTag>& tags, const Level& level) {
+  std::vector<InputProblem> problems;
+  for (std::size_t k = 0; k < tags.size(); ++k) {
+    std::string problem = problemOf(tags[k], level);
+    for (std::size_t before = 0; before < k && problem.empty(); ++before)
+      if (tags[before].side == tags[k].side && !(tags[before].isPart && tags[k].isPart))
+        problem =
+            fmt::format("the same side as on line {}, so that its energy would count twice", tags[before].where.line);
+    if (!problem.empty()) problems.push_back({tags[k].where, "DataAnalysis/Module/controlVolume/Face", problem});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 /// The sides normal to axes that the grid uses; nothing leaves through periodic sides.
 std::vector<MeasuredSide> sidesOf(const std::vector<SideTag>& tags, const Level& level) {
+  checkSides(tags, level);
   std::vector<MeasuredSide> sides;
   for (const SideTag& tag : tags)
     for (int d = 0; d < level.dimension(); ++d)

@@ -52,6 +52,13 @@ const Schema<Variables>& variablesSchema() {
   return schema;
 }
 
+void checkVariables(const ExtractSettings& read, const input::Element& module, input::Diagnostics& diagnostics) {
+  for (const Variable& variable : read.variables.list)
+    if (!variable.label.starts_with("p."))
+      diagnostics.error(variable.where, module.path() + "/Variables/analyze",
+                        fmt::format("found '{}', expected a particle variable (p.)", variable.label));
+}
+
 const Schema<ExtractSettings>& extractSchema() {
   static const Schema<ExtractSettings> schema = [] {
     Schema<ExtractSettings> tags("Module", "Variables of selected particles over time, one file per particle.");
@@ -62,13 +69,17 @@ const Schema<ExtractSettings>& extractSchema() {
                "name of the material whose particles are sampled; the first by default")
         .required("colorThreshold", &ExtractSettings::threshold, "1",
                   "only particles whose p.color is greater than this are written")
-        .requiredSection("Variables", &ExtractSettings::variables, variablesSchema(), "the variables that are written");
+        .requiredSection("Variables", &ExtractSettings::variables, variablesSchema(), "the variables that are written")
+        .check(checkVariables);
   }();
   return schema;
 }
 
-const Array& column(const std::vector<Array>& columns, std::string_view label) {
-  return *std::find_if(columns.begin(), columns.end(), [&](const Array& array) { return array.label == label; });
+/// The values of a variable; null if no task computes it in this scene, which a note says.
+const Array* column(const std::vector<Array>& columns, std::string_view label) {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const Array& array) { return array.label == label; });
+  return found == columns.end() ? nullptr : &*found;
 }
 
 class ParticleExtract : public Analysis {
@@ -99,11 +110,11 @@ class ParticleExtract : public Analysis {
     if (block == snapshot.particles.end()) return;
     const auto folder = archive / "particleExtract" / "L-0";
     output::makeFolder(folder);
-    const auto& color = std::get<std::vector<double>>(column(block->arrays, colorLabel).values);
-    const auto& ids = std::get<std::vector<std::uint64_t>>(column(block->arrays, data::particleId.name).values);
+    const auto& color = std::get<std::vector<double>>(column(block->arrays, colorLabel)->values);
+    const auto& ids = std::get<std::vector<std::uint64_t>>(column(block->arrays, data::particleId.name)->values);
     Columns columns{block->arrays.front()};
     for (const Variable& variable : settings_.variables.list)
-      columns.emplace_back(column(block->arrays, variable.label));
+      if (const Array* values = column(block->arrays, variable.label)) columns.emplace_back(*values);
     std::stable_sort(columns.begin() + 1, columns.end(),
                      [](const Array& a, const Array& b) { return a.components < b.components; });
     const std::string header = extractHeader(columns);

@@ -28,6 +28,13 @@ struct AverageSettings : Sampling {
 
 void checkWeight(const AverageSettings& read, const input::Element& module, input::Diagnostics& diagnostics) {
   const auto& all = read.variables.list;
+  const auto refuseNodes = [&](const std::string& label, const Location& where, std::string_view tag) {
+    if (label.starts_with("g.") || label.starts_with("p."))
+      diagnostics.error(where, fmt::format("{}/{}", module.path(), tag),
+                        fmt::format("found '{}', expected a cell variable (c.)", label));
+  };
+  for (const Analyzed& one : all) refuseNodes(one.label, one.where, "Variables/analyze");
+  if (read.weight) refuseNodes(read.weight->label, read.weight->where, "weight");
   const auto isWeighted = [](const Analyzed& one) { return one.weighting == Weighting::weight; };
   if (!read.weight && std::any_of(all.begin(), all.end(), isWeighted))
     diagnostics.error(module, "missing tag <weight> in <Module>: weighting=\"mass\" needs it");
@@ -85,6 +92,10 @@ class PlaneAverage : public SamplingModule {
       if (weighting == weightings_.end() || !isOfCells) continue;
       const bool isWeighted = weighting->second == Weighting::weight;
       if (isWeighted && weight == all.end()) continue;  // a note says that no task computes it
+      if (isWeighted && weight->field->array.components != 1)
+        throw InputError({{weight->variable->request.where, "DataAnalysis/Module/weight",
+                           fmt::format("'{}' has {} components; a weight has one", weight->field->array.label,
+                                       weight->field->array.components)}});
       output::replaceFile(folder / nameOf(*found.variable), textOf(sums.time, found.field->array, weighting->second,
                                                                    isWeighted ? &weight->field->array : nullptr));
     }

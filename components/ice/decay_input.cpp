@@ -88,10 +88,12 @@ ScalarDecay decayOf(double constantRate, double linearRate, const std::optional<
   result.isExponential = true;
   result.linearRate += decay->rate;
   result.factor = decay->factor;
-  if (decay->coefficient.isTable)
-    result.coefficients = readValues(decay->coefficient, model, diagnostics);
+  const DecayCoefficient& coefficient = decay->coefficient;
+  if (!(coefficient.isTable ? coefficient.file.has_value() : coefficient.value.has_value())) return result;
+  if (coefficient.isTable)
+    result.coefficients = readValues(coefficient, model, diagnostics);
   else
-    result.coefficient = *decay->coefficient.value;
+    result.coefficient = *coefficient.value;
   return result;
 }
 

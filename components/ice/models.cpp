@@ -181,8 +181,25 @@ void readTracers(const Element& model, ModelsSection& models, Diagnostics& diagn
   if (diagnostics.size() == before) models.tracers = std::move(read);
 }
 
+/// Refuses tags in a <Model> other than one that has the name of its type. Older scenes have the numbers of a mass
+/// exchange without this tag.
+void refuseOtherTags(const Element& model, const std::string& type, Diagnostics& diagnostics) {
+  if (type == "Test" && !model.child("Test")) return;
+  bool isGiven = false;
+  for (const Element& tag : model.children()) {
+    if (tag.name() != type)
+      diagnostics.error(tag, fmt::format("unknown tag <{}> in <Model>{}; allowed here: {}", tag.name(),
+                                         didYouMean(tag.name(), {type}), type));
+    else if (isGiven)
+      diagnostics.error(tag, fmt::format("<{}> is given twice in <Model>; add another <Model> for another one", type));
+    isGiven = isGiven || tag.name() == type;
+  }
+}
+
 void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const std::string type = model.attribute("type").value_or("");
+  if (std::find(modelTypes.begin(), modelTypes.end(), type) != modelTypes.end())
+    refuseOtherTags(model, type, diagnostics);
   if (type == "Test") return readExchange(model, models, diagnostics);
   if (type == "JWLpp") return readReaction(model, models, diagnostics);
   if (type == "LightTime") return readProgram(model, models, diagnostics);

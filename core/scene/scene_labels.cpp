@@ -51,6 +51,10 @@ void checkLabels(const Component& component, const std::vector<std::unique_ptr<A
     return isLacking;
   });
   for (const SaveRequest& save : saves)
+    if (!save.material.empty() && save.material != "all" && phases.materials().size() > 1 && phases.isTotal(save.label))
+      diagnostics.note(save.whereOfMaterial, "DataArchiver/save",
+                       fmt::format("'{}' is a total over all materials, and is saved as such", save.label));
+  for (const SaveRequest& save : saves)
     for (const std::string& remark : phases.remarksOn(save))
       diagnostics.note(save.whereOfMaterial, "DataArchiver/save", remark);
   for (const std::vector<InputProblem>& problems : {phases.problemsOf(saves), phases.problemsOf(analyses)})

@@ -256,6 +256,15 @@ Pruned mendsOf(const tasks::TaskList& list, const RegridSettings& regrid, const 
   return prune(mends.tasks(), wanted, false);
 }
 
+/// The variables that must exist after the start: those that a step needs, except saved ones that only steps compute.
+Names neededAtStart(const Pruned& step, const tasks::TaskList& initialize) {
+  const Names started = producedBy(initialize.tasks()), read = requiredOfState(step.kept);
+  Names needed;
+  for (const std::string& name : step.needed)
+    if (started.contains(name) || read.contains(name)) needed.insert(name);
+  return needed;
+}
+
 /// The tasks that find the materials to which particles move.
 Pruned movesOf(const tasks::TaskList& list) { return prune(list.tasks(), {std::string(nextMaterial.name)}, false); }
 
@@ -355,7 +364,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
   Pruned advance = prune(lists.timeAdvance.tasks(), atEnd, true);
   if (smallerSteps) refuseSmallerSteps({&stable, &advance}, *smallerSteps);
-  Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
+  Pruned init = prune(lists.initialize.tasks(), neededAtStart(advance, lists.initialize), false);
   checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend, &moves, &sums}, grid,
                 regrid.where);
 

@@ -30,6 +30,8 @@ class Phases {
   std::vector<InputProblem> problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// Whether tasks compute a variable for each material.
   bool isOfMaterials(const std::string& label) const;
+  /// Whether a variable is one value for the whole grid.
+  bool isTotal(const std::string& label) const;
   /// Notes on indices of materials in `save` that do not exist.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
   /// Compiles the lists. Throws InputError if no task computes a saved or sampled label, or if a task cannot run on the

@@ -40,6 +40,14 @@ bool Phases::isOfMaterials(const std::string& label) const {
   return false;
 }
 
+bool Phases::isTotal(const std::string& label) const {
+  for (const auto* list : {&lists_.initialize, &lists_.timeAdvance, &lists_.diagnostics, &lists_.afterStep})
+    for (const tasks::Task& task : list->tasks())
+      for (const tasks::Access& access : task.accesses)
+        if (access.writes() && access.label->name == label) return access.label->centring == data::Centring::reduction;
+  return false;
+}
+
 std::vector<SaveRequest> Phases::named(const std::vector<SaveRequest>& saves) const {
   const int count = static_cast<int>(materials_.size());
   std::vector<SaveRequest> all;

@@ -60,7 +60,9 @@ REFUSED = {
     "a flow of heat into implicit steps":
         (BEAM, heat_flow("Neumann", "5"), "value: found '5'; solids take Neumann for Temperature only with 0"),
     "heat on a surface in implicit steps":
-        (BEAM, ("<Grid>", HEAT), "heat_flux: needs <time_integrator> explicit", "MPM/use_load_curves=true"),
+        (BEAM, ("<Grid>", HEAT), "heat_flux: needs DoImplicitHeatConduction true", "MPM/use_load_curves=true"),
+    "bodies at rest without conduction":
+        (BEAM, ("<dynamic>", "<DoMechanics>false</DoMechanics><dynamic>"), "DoMechanics: false leaves nothing to compute"),
     "artificial viscosity in implicit steps":
         (BEAM, ("<dynamic>", "<artificial_viscosity>true</artificial_viscosity><dynamic>"),
          "artificial_viscosity: is not available; only explicit steps have artificial viscosity"),

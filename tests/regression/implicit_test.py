@@ -54,7 +54,33 @@ def free(text):
     return text.replace("<dynamic>false", "<dynamic>true").replace('"StrainEnergy"', '"TotalMomentum"')
 
 
+HEATED = """<PhysicalBC><MPM><heat_flux><geom_object><box><min>[1,0.4,0]</min><max>[1,0.6,0.05]</max></box></geom_object>
+    <load_curve><time_point><time>0</time><load>1e6</load></time_point></load_curve></heat_flux></MPM></PhysicalBC>"""
+
+
 class Implicit(SceneTest):
+    def test_heat_that_flows_in_while_bodies_rest_or_move(self):
+        text = (ROOT / BEAM).read_text()
+        text = text.replace("<MaterialProperties>", HEATED + "<MaterialProperties>", 1)
+        text = text.replace("<DataArchiver>", '<DataArchiver><save label="ThermalEnergy"/>', 1)
+        text = text.replace("<constitutive_model", "<thermal_conductivity>20</thermal_conductivity>"
+                            "<specific_heat>400</specific_heat><constitutive_model", 1)
+        for moves in ("false", "true"):
+            with self.subTest(moves), tempfile.TemporaryDirectory() as folder:
+                scene = pathlib.Path(folder, "heated.ups")
+                scene.write_text(text)
+                sets = ("MPM/use_load_curves=true", "MPM/DoImplicitHeatConduction=true", f"MPM/DoMechanics={moves}",
+                        "Time/delt_init=0.1", "Time/delt_max=0.1", "Time/max_Timesteps=4")
+                words = [SUS, str(scene), "--quiet", "--output", folder]
+                for override in sets:
+                    words += ["--set", override]
+                done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                lines = next(pathlib.Path(folder).glob("*.uda.*/ThermalEnergy.dat")).read_text().splitlines()
+                (start, before), (end, after) = [map(float, lines[at].split()) for at in (1, -1)]
+                self.assertGreater(end, start)
+                self.assertAlmostEqual((after - before) / (1e6 * 0.2 * 0.05 * (end - start)), 1, 9)
+
     def test_a_load_that_is_there_from_the_start_acts_from_the_start(self):
         pressed = """<PhysicalBC><MPM><pressure>
             <geom_object><box><min>[1,0.4,0]</min><max>[1,0.6,0.05]</max></box></geom_object>

@@ -175,8 +175,8 @@ void refuseHeatFlows(const Problem& problem, const Element& root, Diagnostics& d
     if (value && input::parse<double>(value->text()).value != 0.0)
       diagnostics.error(condition,
                         "value: found '" + std::string(value->text()) +
-                            "'; solids take Neumann for Temperature only with 0, which insulates the side; with "
-                            "<time_integrator> explicit, <heat_flux> in <PhysicalBC> supplies heat");
+                            "'; solids take Neumann for Temperature only with 0, which insulates the side; "
+                            "<heat_flux> in <PhysicalBC> supplies heat");
   }
 }
 

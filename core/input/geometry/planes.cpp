@@ -109,7 +109,7 @@ Box3 Polyhedron::bounds() const {
 namespace {
 
 void checkHalfSpace(const HalfSpace& space, const Element& element, Diagnostics& diagnostics) {
-  const bool absolute = space.type != "relative";
+  const bool absolute = !space.isRelative;
   if (absolute ? !(space.point && space.normal && !space.offset) : !(space.offset && !space.point && !space.normal))
     return diagnostics.error(element, absolute ? "type absolute needs <planePoint> and <normal>, and no <offset>"
                                                : "type relative needs <offset>, and no <planePoint> or <normal>");
@@ -129,8 +129,8 @@ void checkPolyhedron(const Polyhedron& shape, const Element& element, Diagnostic
 const Schema<Polyhedron>& Polyhedron::schema() {
   static const Schema<HalfSpace> space =
       Schema<HalfSpace>("half_space", "A plane that bounds a polyhedron.")
-          .attributeValue("type", &HalfSpace::type, "absolute", "1",
-                          "absolute: given by planePoint and normal; relative: given by offset")
+          .choiceAttribute("type", &HalfSpace::isRelative, {{"absolute", false}, {"relative", true}}, false,
+                           "absolute: given by planePoint and normal; relative: given by offset")
           .optional("planePoint", &HalfSpace::point, "m", "a point in the plane")
           .optional("normal", &HalfSpace::normal, "1", "perpendicular to the plane, pointing into the body")
           .optional("offset", &HalfSpace::offset, "m", "from the centre to the nearest point of the plane")

@@ -33,7 +33,7 @@ std::vector<Vec3> readPolygon(const std::string& path, const Element& tag, Diagn
 
 /// A half-space, bounded by a plane; the normal of the plane points into the body.
 struct HalfSpace {
-  std::string type;                   ///< how the plane is given: absolute or relative
+  bool isRelative = false;            ///< whether the plane is given relative to the centre of the body
   std::optional<Vec3> point, normal;  ///< absolute: a point [m] on the plane, and the normal
   std::optional<Vec3> offset;         ///< relative: the vector from the centre of the body to the plane [m]
 };

@@ -263,9 +263,10 @@ Contact::Type typeOf(Kind kind) {
 /// Adds a note if a contact has a master, but does not list those that follow it.
 void noteFollowers(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
   if (hasMaster(read.kind) && !read.materials)
-    diagnostics.note(tag,
-                     "without <materials>, all materials follow the master; in Uintah, none does: there, bodies move as "
-                     "if there were no contact");
+    diagnostics.note(
+        tag,
+        "without <materials>, all materials follow the master; in Uintah, none does: there, bodies move as "
+        "if there were no contact");
 }
 
 Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {

@@ -10,9 +10,11 @@ namespace tushar::mpm::solid::implicit {
 
 /// Heat conduction in a step by backward Euler, for the temperature T' of all nodes:
 ///
-///     (C_i + dt K_ij) T'_j = C_i T_i,  C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
+///     (C_i + dt K_ij) T'_j = C_i T_i + dt sum_p S_i Q_p,
+///     C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
 ///
-/// where T_i is the mean of the particles' temperatures, weighted by their heat capacities. All materials have the same
+/// where T_i is the mean of the particles' temperatures, weighted by their heat capacities, and Q_p the heat flow from
+/// loads. All materials have the same
 /// temperature at a node. A side of the grid has the temperature that the scene specifies; otherwise it is insulated.
 template <int D>
 class NodalHeat {
@@ -62,6 +64,7 @@ class NodalHeat {
   struct Point {
     const Material& material;
     double mass, temperature, volume;  ///< mass [kg], temperature [K], volume [m^3]
+    double heatFlux;                   ///< heat flow from loads [W]
     Matrix3 carried;                   ///< A in grad S = A^T grad_0 S: F^-1, or I if the grid is reset
   };
 
@@ -74,7 +77,8 @@ class NodalHeat {
           const double mass = heated.mass[k], volume = mass / materials_[m].undeformedDensity();
           const Matrix3& f = heated.deformation[k];
           const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
-          visit(Point{materials_[m], mass, heated.temperature[k], volume * f.determinant(), carried}, touched);
+          const double flux = heated.heatFlux ? (*heated.heatFlux)[k] : 0.0;
+          visit(Point{materials_[m], mass, heated.temperature[k], volume * f.determinant(), flux, carried}, touched);
         });
       }
   }
@@ -121,6 +125,7 @@ class NodalHeat {
         const Vec3 slope = level.template expandDirection<D>(touched[n].gradient);
         numbers[n] = nodes_(nodes_.imageOf(touched[n].node).node);
         slopes[n] = level.template reduce<D>(Vec3(slope.transpose() * point.carried));
+        if (numbers[n] >= 0 && !given_[numbers[n]]) right[numbers[n]] += dt * touched[n].s * point.heatFlux;
       }
       addPoint(dt * point.volume * point.material.thermalConductivity, std::span(numbers).first(touched.size()),
                std::span(slopes).first(touched.size()), matrix, right);

@@ -33,7 +33,7 @@ void ImplicitMpm<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void ImplicitMpm<D>::scheduleStartingAcceleration(TaskList& tasks) const {
-  if (!how_.dynamic) {
+  if (!how_.dynamic || !how_.movesBodies) {
     tasks.perMaterial("impm::startAtRest", startAtRest<D>, problem_.materials, requiresNew(p::mass),
                       computes(p::acceleration<D>));
     return;
@@ -54,13 +54,14 @@ void ImplicitMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   tasks.perPatch(
       "impm::limitTimeStep", [](const Patch&, double allowed, Minimum& dt) { dt.add(allowed, "Newton's iterations"); },
       requiresOld(total::nextTimeStep), computes(delT));
-  if (how_.dynamic)
+  if (how_.dynamic && how_.movesBodies)
     tasks.perMaterial("impm::limitBySpeed", limitBySpeed<D>, problem_.materials, requiresOld(p::velocity<D>),
                       computes(delT));
 }
 
 template <int D>
 void ImplicitMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
+  if (!how_.movesBodies) return scheduleHeat(tasks);
   tasks.perMaterial("mpm::applyExternalLoads", applyLoadsAtEnd<D>, problem_.materials, with(problem_.start.loads),
                     startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::mass),
                     requiresOld(p::loadCurves), computes(p::externalForce<D>));
@@ -103,12 +104,16 @@ void ImplicitMpm<D>::scheduleHeat(TaskList& tasks) const {
   const Vec3& commonSize = problem_.method.commonSize;
   scheduleNodalTemperature(tasks, shapes_->shaped, problem_.materials, commonSize, keepsSizes, false);
   if (how_.conductsHeat) {
+    if (isHeatedByLoads())
+      tasks.perMaterial("mpm::applyHeatFlux", applyHeatFluxAtEnd<D>, problem_.materials, with(problem_.start.loads),
+                        startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::loadCurves),
+                        computes(p::heatFlux));
     tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<D>, problem_.materials, togetherOnRanks(),
-                                 with(setup()), requiresOld(delT), all<HeatedParticles<D>>(),
+                                 with(setup()), requiresOld(delT), all<HeatedParticles<D>>(isHeatedByLoads()),
                                  computes(g::temperatureRate));
     scheduleTemperatureUpdate(tasks, shapes_->shaped, problem_.materials, commonSize, keepsSizes, false);
   }
-  if (heats_) scheduleHeatOfWork(tasks, problem_.materials, how_.conductsHeat);
+  if (heats_ && how_.movesBodies) scheduleHeatOfWork(tasks, problem_.materials, how_.conductsHeat);
 }
 
 template <int D>

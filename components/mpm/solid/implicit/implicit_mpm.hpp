@@ -26,6 +26,7 @@ class ImplicitMpm : public Solids {
   void scheduleVelocity(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
 
+  bool isHeatedByLoads() const { return how_.conductsHeat && problem_.start.loads.hasHeat(); }
   ImplicitSetup<D> setup() const { return {&problem_, shapes_, how_, state_size_}; }
 
   const ImplicitShapes<D>* shapes_;

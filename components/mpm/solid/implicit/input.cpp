@@ -22,13 +22,14 @@ namespace {
 struct Section {
   int integrator = 0, solver = 0, transient = 0;
   bool gimp = false, useLoadCurves = false, withColor = false, axisymmetric = false;
-  bool dynamic = true, resetsGrid = true, sharesVolume = false, heat = false;
+  bool moves = true, dynamic = true, resetsGrid = true, sharesVolume = false, heat = false;
   double displacement = 1e-10, energy = 4e-10, decreaseFactor = 0.6, increaseFactor = 2;
   int maxIterations = 25, decrease = 12, increase = 4;
   std::optional<solvers::LinearSettings> linear;
 
   ImplicitMethod method() const {
     ImplicitMethod method;
+    method.movesBodies = moves;
     method.dynamic = dynamic;
     method.resetsGrid = resetsGrid;
     method.sharesVolume = sharesVolume;
@@ -87,7 +88,6 @@ void addFixedHeat(Schema<Section>& mpm) {
              "true or false: in either case, nodes take their temperatures from the particles in every step")
       .forms({input::choiceForm({"interpolateParticleTempToGridEveryStep"}, {"true", "false"})});
   mpm.ignored("mirror_images", "implicit steps always mirror particles");
-  requireSwitch(mpm, "DoMechanics", "solids move; for heat conduction alone, use the component implicit_heat");
 }
 
 const Schema<Section>& sectionSchema() {
@@ -116,6 +116,8 @@ const Schema<Section>& sectionSchema() {
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
                "accepted for compatibility with Uintah: p.color exists if it is saved")
+        .value("DoMechanics", &Section::moves, true, "1",
+               "false: bodies rest, without forces and stresses, and only heat is conducted")
         .value("DoImplicitHeatConduction", &Section::heat, false, "1", "whether heat is conducted, by backward Euler")
         .ignored("DoExplicitHeatConduction", "heat is conducted implicitly if DoImplicitHeatConduction is true")
         .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "conduction is transient")
@@ -224,8 +226,15 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
             where, "contact: '" + material.name +
                        "' is not among its <materials>; with <time_integrator> implicit, all materials move as one");
   }
-  if (problem.start.loads.hasHeat())
-    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <time_integrator> explicit");
+}
+
+/// Refuses settings without which heat would not flow as the scene says.
+void checkConduction(const Section& read, const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  if (problem.start.loads.hasHeat() && !read.heat)
+    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs DoImplicitHeatConduction true");
+  if (!read.moves && !read.heat)
+    diagnostics.error(root.child("MPM")->child("DoMechanics").value(),
+                      "false leaves nothing to compute; set DoImplicitHeatConduction to true, or remove DoMechanics");
 }
 
 /// Adds a note that temperature affects metals only through the equation of state; in Uintah's implicit steps, it also
@@ -241,11 +250,17 @@ void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
+/// Whether a boundary condition may concern solids; those of gases have other labels.
+bool isOfSolids(std::string_view label) {
+  return label == grid::symmetric.name || label == boundary::velocity.name || label == boundary::temperature.name;
+}
+
 /// Refuses boundary conditions that implicit steps would ignore: conditions for one of several materials, and a heat
 /// flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string id = condition.attribute("id").value_or("all");
+    if (!isOfSolids(condition.attribute("label").value_or(""))) continue;
     if (id != "all" && problem.materials.size() > 1)
       diagnostics.error(condition, "id: found '" + id +
                                        "'; with <time_integrator> implicit, materials share their nodes, and a "
@@ -285,9 +300,10 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   settleGrains(problem, {}, root, diagnostics);
   settleZones(problem, properties.mpm.zones, {}, root, diagnostics);
   checkHeat(problem, root, diagnostics);
-  refuseWithoutTangent(problem, root, diagnostics);
-  refuseExplicitOnly(problem, root, diagnostics);
-  if (read.sharesVolume) refuseVolumesOfStates(problem, root, diagnostics);
+  checkConduction(read, problem, root, diagnostics);
+  if (read.moves) refuseWithoutTangent(problem, root, diagnostics);
+  if (read.moves) refuseExplicitOnly(problem, root, diagnostics);
+  if (read.moves && read.sharesVolume) refuseVolumesOfStates(problem, root, diagnostics);
   refuseConditions(problem, root, diagnostics);
   if (read.heat) noteThermalStrain(root, diagnostics);
   if (diagnostics.size() > before) return {};

@@ -14,6 +14,7 @@ struct ImplicitMethod {
   /// F-bar: whether the particles of a cell share one change of volume, which prevents locking.
   bool sharesVolume = false;
   solvers::NewtonSettings newton;
+  bool movesBodies = true;  ///< otherwise bodies rest, and only heat is conducted
   bool conductsHeat = false;
   solvers::LinearSettings heat{"automatic", "gamg", 1e-10, 1000, ""};  ///< solver for the conduction of heat
   int iterationsToDecrease = 12;  ///< smallest number of iterations after which the next step is shorter

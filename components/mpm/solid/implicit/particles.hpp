@@ -59,12 +59,14 @@ struct HeatedParticles {
   Placed<D> placed;
   ParticleView<const double> mass, temperature;
   ParticleView<const Matrix3> deformation;
+  OptionalView<const double> heatFlux = {};  ///< heat flow from loads [W]
 
-  static HeatedParticles from(auto& take) {
+  static HeatedParticles from(auto& take, bool areLoaded) {
     return {.placed = Placed<D>::from(take, keepsSizes, 0, when(false, requiresOld(p::deformationMeasure))),
             .mass = take(requiresOld(p::mass)),
             .temperature = take(requiresOld(p::temperature)),
-            .deformation = take(requiresOld(p::deformationMeasure))};
+            .deformation = take(requiresOld(p::deformationMeasure)),
+            .heatFlux = take(when(areLoaded, requiresNew(p::heatFlux)))};
   }
 };
 

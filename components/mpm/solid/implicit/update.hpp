@@ -181,4 +181,12 @@ void applyLoadsAtEnd(const Patch& patch, const Material& material, const Loads& 
   applyExternalLoads<D>(patch, material, loads, time + dt, x, mass, loadCurves, std::nullopt, externalForce);
 }
 
+/// Computes the heat flow [W] from loads to each particle at the end of a step.
+template <int D>
+void applyHeatFluxAtEnd(const Patch& patch, const Material& material, const Loads& loads, double time, double dt,
+                        ParticleView<const Vec<D>> x, ParticleView<const int> loadCurves,
+                        ParticleView<double> heatFlux) {
+  applyHeatFlux<D>(patch, material, loads, time + dt, x, loadCurves, heatFlux);
+}
+
 }  // namespace tushar::mpm::solid::implicit

@@ -82,6 +82,8 @@ class Block {
     set_.setOwned(static_cast<int>(x_.size()));
   }
 
+  const std::vector<double>& mass() const { return mass_; }
+  std::vector<double> heatFlux;  ///< heat flow to each particle [W]; empty: none
   std::vector<double>& temperature() { return temperature_; }
   /// Returns the grid temperature [K] at x after a step of heat conduction: k = 1 W/(m K), c = 1 J/(kg K).
   double temperatureAfter(double dt, const Vec<D>& x) {
@@ -91,7 +93,8 @@ class Block {
     const HeatedParticles<D> heated{.placed = {.x = view(x_), .size = std::nullopt, .deformation = std::nullopt},
                                     .mass = view(mass_),
                                     .temperature = view(temperature_),
-                                    .deformation = view(deformation_)};
+                                    .deformation = view(deformation_),
+                                    .heatFlux = heatFlux.empty() ? OptionalView<const double>() : view(heatFlux)};
     const OfRank<HeatedParticles<D>> particles{{heated}};
     const RankPatches patches{&patch};
     NodalHeat<D> heat(patches, materials, mpi::Communicator::alone(), shapesOf<Shape>, Vec3(0.5, 0.5, 0.5), particles,

@@ -28,4 +28,18 @@ TEST(ImplicitHeat, SpreadsSlowerWhereTheGridHasBeenStretched) {
   EXPECT_GT(bar.temperatureAfter(1000, Vec<1>(3.75)), 301);
 }
 
+TEST(ImplicitHeat, TakesTheHeatOfLoads) {
+  Block<LinearShape<2>> block(modelOf(rubber()), {{6, 2, 1}});
+  for (double& temperature : block.temperature()) temperature = 300;
+  const double mass = block.mass().front(), dt = 7;  // and c = 1
+  block.heatFlux.assign(block.x().size(), 2 * mass);
+  for (const Vec<2>& x : block.x()) EXPECT_NEAR(block.temperatureAfter(dt, x), 300 + 2 * dt, 1e-9);
+  // One particle has it all: the sum stays.
+  block.heatFlux.assign(block.x().size(), 0);
+  block.heatFlux[5] = 2 * mass;
+  double sum = 0;
+  for (const Vec<2>& x : block.x()) sum += block.temperatureAfter(dt, x) - 300;
+  EXPECT_NEAR(sum, 2 * dt, 1e-8);
+}
+
 }  // namespace tushar::mpm::solid::implicit
