@@ -90,7 +90,7 @@ class PassedOver(unittest.TestCase):
             self.assert_noted(re.sub(r"<materials>.*?</materials>", f"<materials>{listed}</materials>", BLOCKS), sentence)
 
     def test_totals_of_one_material(self):
-        self.assert_noted(BLOCKS.replace('<save label="p.x"/>', '<save label="KineticEnergy" material="0"/>', 1),
+        self.assert_noted(BLOCKS.replace('<save label="KineticEnergy"/>', '<save label="KineticEnergy" material="0"/>'),
                           "'KineticEnergy' is a total over all materials, and is saved as such")
 
     def test_parts_of_sides(self):

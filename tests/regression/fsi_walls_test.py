@@ -41,6 +41,19 @@ class TracesOfGas(SceneTest):
         self.assertGreaterEqual(min(row[1] for row in least), 0)
 
 
+class ThrownBodies(SceneTest):
+    def test_stop_at_a_symmetry_plane(self):
+        """A heavy rigid plug that no gas stops; its particles are .0025 apart."""
+        material = "MaterialProperties/MPM/material/"
+        sets = (material + "density=1000", material + "geom_object/velocity=[1,0,0]", "Time/maxTime=1.6")
+        text = changed(fsi.scene("plug").read_text(), SAVE_VELOCITY)
+        state = last_state(self.scene(text), "p.velocity", sets=sets)
+        places = sorted(state["x [m]"])
+        self.assertLess(places[-1], 2)
+        self.assertAlmostEqual(places[-1] - places[0], .0975, 3)
+        self.assertLessEqual(max(state["p.velocity.x [m/s]"]), 1e-3)
+
+
 class ThinBodies(SceneTest):
     def test_are_noted(self):
         note = "is only 0.75 times as thick as a cell along x: gas leaks through bodies thinner than 1.25 cells"

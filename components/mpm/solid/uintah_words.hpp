@@ -89,7 +89,10 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zplus"};
 
 /// Variables of some models and contacts, which scenes go on to save when they have others.
-inline const std::vector<std::string> labelsOfSomeScenes{"g.color",
+inline const std::vector<std::string> labelsOfSomeScenes{"KrylovIterations",
+                                                         "NewtonIterations",
+                                                         "NewtonResidual",
+                                                         "g.color",
                                                          "g.frictionHeat",
                                                          "g.matlProminence",
                                                          "g.normAlphaToBeta",

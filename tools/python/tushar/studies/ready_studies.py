@@ -115,6 +115,12 @@ READY = {
                       "last.CenterOfMassPosition[0]=0.04724319"),
     "sod_plate": (pushed("sod_plate"), {"resolution": ["103", "206", "412"]},
                   "last.CenterOfMassPosition[0]=0.0045543"),
+    # The force of the gas on a piston [N]: the difference of the pressures behind a shock or a slow change and ahead.
+    "moving_piston": (pushed("moving_piston"), {"resolution": ["75", "150", "300", "600"]},
+                      "end.GasForceOnBodies[0]=-3.26295133"),
+    "slow_piston": ([Method("implicit", "ups/fsi/slow_piston.ups")], {"resolution": ["55", "110", "220"]},
+                    "end.GasForceOnBodies[0]=-1.42016593"),
+    "burning_slab": (pushed("burning_slab"), {"resolution": ["25", "50", "100"]}, "last.BurntMass=2"),
     "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
              "temperature.cell.L1"),
 }
