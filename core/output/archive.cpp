@@ -46,7 +46,7 @@ struct Archive::State {
   ArchiveIndex index;
   XdmfIndex xdmf;
   GlobalFiles globals{folder};
-  Pace pace;  ///< when to write the lists
+  Pace pace;                         ///< when to write the lists
   std::vector<std::string> damages;  ///< of the `.dat` files of the run that is continued
   int last_step = -1;
   Pace vtkhdf_pace;  ///< when to write the VTKHDF files, which takes longer

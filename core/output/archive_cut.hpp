@@ -10,8 +10,8 @@ namespace tushar::output {
 /// The lines of a `.dat` file with times up to `time` [s]; an unfinished last line is left out.
 std::string linesUpTo(const std::string& lines, double time);
 
-/// What is wrong with a `.dat` file if `kept`, its lines up to `time` [s], are fewer than a run writes until then: a line
-/// that is not a sample, or an early end. Empty if nothing is wrong.
+/// What is wrong with a `.dat` file if `kept`, its lines up to `time` [s], are fewer than a run writes until then: a
+/// line that is not a sample, or an early end. Empty if nothing is wrong.
 std::string damageBefore(const std::string& lines, const std::string& kept, double time);
 
 /// Removes the outputs in an archive's folder that its index does not list, and unfinished outputs of a killed run.

@@ -87,7 +87,8 @@ class PassedOver(unittest.TestCase):
     def test_materials_of_a_contact(self):
         for listed, sentence in (("[0,5]", "there is no material 5; materials are numbered from 0 to 1"),
                                  ("[0]", "lists less than two materials, so that this contact has no effect")):
-            self.assert_noted(re.sub(r"<materials>.*?</materials>", f"<materials>{listed}</materials>", BLOCKS), sentence)
+            text = re.sub(r"<materials>.*?</materials>", f"<materials>{listed}</materials>", BLOCKS)
+            self.assert_noted(text, sentence)
 
     def test_totals_of_one_material(self):
         self.assert_noted(BLOCKS.replace('<save label="KineticEnergy"/>', '<save label="KineticEnergy" material="0"/>'),

@@ -62,7 +62,8 @@ REFUSED = {
     "heat on a surface in implicit steps":
         (BEAM, ("<Grid>", HEAT), "heat_flux: needs DoImplicitHeatConduction true", "MPM/use_load_curves=true"),
     "bodies at rest without conduction":
-        (BEAM, ("<dynamic>", "<DoMechanics>false</DoMechanics><dynamic>"), "DoMechanics: false leaves nothing to compute"),
+        (BEAM, ("<dynamic>", "<DoMechanics>false</DoMechanics><dynamic>"),
+         "DoMechanics: false leaves nothing to compute"),
     "artificial viscosity in implicit steps":
         (BEAM, ("<dynamic>", "<artificial_viscosity>true</artificial_viscosity><dynamic>"),
          "artificial_viscosity: is not available; only explicit steps have artificial viscosity"),

@@ -108,14 +108,20 @@ TEST(NearRows, LeaveSavedValuesOfOtherNodesAt0) {
   onRanks(2, [](const mpi::Communicator& ranks) {
     test::Runner run(plane({{3, 2, 1}}, false), 1, ranks);
     TaskList step;
-    step.perMaterial("write", [](const Patch&, const Material&, NodeView<double> nodes) {
-      forEach<2>(nodes.box(), [&](const Index<2>& at) {
-        if (holds(at)) nodes[at] = 3;
-      });
-    }, body, computes(nearby));
-    step.perMaterial("check", [](const Patch&, const Material&, NodeView<const double> nodes, Sum& bad) {
-      forEach<2>(nodes.box(), [&](const Index<2>& at) { bad.add(!(nodes[at] == (holds(at) ? 3 : 0))); });
-    }, body, requiresNew(nearby), computes(wrong));
+    step.perMaterial(
+        "write",
+        [](const Patch&, const Material&, NodeView<double> nodes) {
+          forEach<2>(nodes.box(), [&](const Index<2>& at) {
+            if (holds(at)) nodes[at] = 3;
+          });
+        },
+        body, computes(nearby));
+    step.perMaterial(
+        "check",
+        [](const Patch&, const Material&, NodeView<const double> nodes, Sum& bad) {
+          forEach<2>(nodes.box(), [&](const Index<2>& at) { bad.add(!(nodes[at] == (holds(at) ? 3 : 0))); });
+        },
+        body, requiresNew(nearby), computes(wrong));
     TaskGraph graph = run.compile(step, {"g.nearby", "wrong"});
     for (int k = 0; k < 2; ++k) run.step(graph);
     EXPECT_EQ(run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0), 0);

@@ -54,7 +54,8 @@ def free(text):
     return text.replace("<dynamic>false", "<dynamic>true").replace('"StrainEnergy"', '"TotalMomentum"')
 
 
-HEATED = """<PhysicalBC><MPM><heat_flux><geom_object><box><min>[1,0.4,0]</min><max>[1,0.6,0.05]</max></box></geom_object>
+HEATED = """<PhysicalBC><MPM><heat_flux>
+    <geom_object><box><min>[1,0.4,0]</min><max>[1,0.6,0.05]</max></box></geom_object>
     <load_curve><time_point><time>0</time><load>1e6</load></time_point></load_curve></heat_flux></MPM></PhysicalBC>"""
 
 

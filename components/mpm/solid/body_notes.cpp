@@ -21,7 +21,8 @@ bool hasParticle(const Level& level, const Body& body, const input::Box3& region
     cells.upper[D - 1] = slab + 1;
     forEach<D>(cells, [&](const Index<D>& cell) {
       if (!found)
-        forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3& at, double) { found = found || test(at); });
+        forEachParticleIn<D>(level, body, cell,
+                             [&](const Index<D>&, const Vec3& at, double) { found = found || test(at); });
     });
   }
   return found;

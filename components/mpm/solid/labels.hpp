@@ -69,9 +69,8 @@ inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s",
                                                     "velocity after the forces of a step are applied, before contact",
                                                     Counts::nearParticles};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s",
-                                                     "velocity after the forces of a step and contact are applied",
-                                                     Counts::nearParticles};
+inline constexpr NodeLabel<Vec<D>> velocityOfContact{
+    "g.velocityOfContact", "m/s", "velocity after the forces of a step and contact are applied", Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
                                                     "contact force on a force-transmitting material"};

@@ -173,10 +173,9 @@ void refuseHeatFlows(const Problem& problem, const Element& root, Diagnostics& d
     const auto value = condition.child("value");
     if (id != "all" && input::parse<int>(id).value >= static_cast<int>(problem.materials.size())) continue;  // a gas
     if (value && input::parse<double>(value->text()).value != 0.0)
-      diagnostics.error(condition,
-                        "value: found '" + std::string(value->text()) +
-                            "'; solids take Neumann for Temperature only with 0, which insulates the side; "
-                            "<heat_flux> in <PhysicalBC> supplies heat");
+      diagnostics.error(condition, "value: found '" + std::string(value->text()) +
+                                       "'; solids take Neumann for Temperature only with 0, which insulates the side; "
+                                       "<heat_flux> in <PhysicalBC> supplies heat");
   }
 }
 

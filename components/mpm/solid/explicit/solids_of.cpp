@@ -196,8 +196,8 @@ template <int D>
 void SolidsOf<D>::scheduleSurroundingForce(TaskList& tasks) const {
   if (!problem_.surroundings) return;
   problem_.surroundings->scheduleForces(tasks, problem_.materials, state_);
-  tasks.perMaterial("mpm::addSurroundingForce", addSurroundingForce<D>, problem_.materials,
-                    with(shapes_.ghostNodes), requiresOld(p::x<D>, shapes_.reach), requiresNew(g::surroundingForce<D>), modifies(g::record));
+  tasks.perMaterial("mpm::addSurroundingForce", addSurroundingForce<D>, problem_.materials, with(shapes_.ghostNodes),
+                    requiresOld(p::x<D>, shapes_.reach), requiresNew(g::surroundingForce<D>), modifies(g::record));
 }
 
 template <int D>

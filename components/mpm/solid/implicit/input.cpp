@@ -81,8 +81,13 @@ void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagno
                      "those in the first step");
 }
 
-/// Declares tags for behaviour that is always enabled in Tushar.
-void addFixedHeat(Schema<Section>& mpm) {
+/// Declares tags for the conduction of heat, some of which have only one value in Tushar.
+void addHeat(Schema<Section>& mpm) {
+  mpm.value("DoMechanics", &Section::moves, true, "1",
+            "false: bodies rest, without forces and stresses, and only heat is conducted")
+      .value("DoImplicitHeatConduction", &Section::heat, false, "1", "whether heat is conducted, by backward Euler")
+      .ignored("DoExplicitHeatConduction", "heat is conducted implicitly if DoImplicitHeatConduction is true")
+      .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "conduction is transient");
   mpm.custom("interpolateParticleTempToGridEveryStep", noteFrozenTemperature,
              {"interpolateParticleTempToGridEveryStep"},
              "true or false: in either case, nodes take their temperatures from the particles in every step")
@@ -116,11 +121,6 @@ const Schema<Section>& sectionSchema() {
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
                "accepted for compatibility with Uintah: p.color exists if it is saved")
-        .value("DoMechanics", &Section::moves, true, "1",
-               "false: bodies rest, without forces and stresses, and only heat is conducted")
-        .value("DoImplicitHeatConduction", &Section::heat, false, "1", "whether heat is conducted, by backward Euler")
-        .ignored("DoExplicitHeatConduction", "heat is conducted implicitly if DoImplicitHeatConduction is true")
-        .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "conduction is transient")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
         .ignored("minimum_particle_mass", "no particle is removed")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
@@ -138,7 +138,7 @@ const Schema<Section>& sectionSchema() {
           "UseMomentumForm", "UseGradientEnhancedVelocityProjection"})
       mpm.ignored(tag, "as in Uintah, only explicit steps use it");
     addForeignTags(mpm);
-    addFixedHeat(mpm);
+    addHeat(mpm);
     refuseSwitch(mpm, "use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface");
     return mpm;
   }();

@@ -28,9 +28,9 @@ class Change:
                       kind == "end")
 
     def measured(self, folder):
-        """Mean over the last quarter of the simulated time, or the last value, minus the first value unless it counts from zero. The mean is the
-        final value whether the run oscillates about it or has come to rest. None where the run has not saved the
-        global."""
+        """Mean over the last quarter of the simulated time, or the last value, minus the first value unless it counts
+        from zero. The mean is the final value whether the run oscillates about it or has come to rest. None where the
+        run has not saved the global."""
         files = sorted(pathlib.Path(folder).glob(f"*.uda.*/{self.name}.dat"))
         lines = rows_of(files[-1]) if files else []
         if not lines or len(lines[0]) <= 1 + self.component:

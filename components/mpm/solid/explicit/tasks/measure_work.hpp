@@ -44,8 +44,8 @@ void keepVelocity(const Patch&, const Material&, int ghostNodes, ParticleView<co
 template <int D>
 void computeNodalWork(const Patch& patch, const Material&, const Method& method, int ghostNodes,
                       ParticleView<const Vec<D>> x, double dt, NodeView<const NodeRecord> record,
-                      NodeView<const Vec<D>> ofForces,
-                      const std::optional<NodeView<const Vec<D>>>& ofContact, NodeView<NodeRecord> work) {
+                      NodeView<const Vec<D>> ofForces, const std::optional<NodeView<const Vec<D>>>& ofContact,
+                      NodeView<NodeRecord> work) {
   const Vec<D> gravity = patch.level().reduce<D>(method.gravity);
   forEachTouchedNode<D>(x, ghostNodes, work.box(), [&](const Index<D>& node) {
     const Vec<D> before = lanes<D>(record[node], lane::before), after = lanes<D>(record[node], lane::velocity);
