@@ -7,7 +7,6 @@ Left in each pair: uniaxial strain, which compresses, releases, stretches and re
 back. A line of text for each model says what is left of the stress at the end, and the work that the cycle takes.
 """
 import argparse
-import os
 import pathlib
 import re
 import subprocess
@@ -289,13 +288,14 @@ def draw(cases, results, file):
 def summary(case, found):
     """A line on what a cycle leaves and takes."""
     (strain, stress), (shear, sheared) = found["uniaxial"], found["shear"]
-    largest = max(np.abs(stress).max(), 1e-300)
-    most = max(np.abs(sheared[:, 0, 1]).max(), 1e-300)
+    largest = np.abs(stress).max()
+    most = np.abs(sheared[:, 0, 1]).max()
+    scale = most or 1  # fluids without viscosity have no shear stress
     # In uniaxial strain, the axial nominal stress is the Cauchy stress; in simple shear, so is P_xy.
     return (f"{case.title:38} at most {largest:9.3e}, {most:9.3e} Pa; left {np.abs(stress[-1]).max() / largest:8.1e}, "
-            f"{abs(sheared[-1, 0, 1]) / most:8.1e}; "
+            f"{abs(sheared[-1, 0, 1]) / scale:8.1e}; "
             f"work {work(strain, stress[:, 0, 0]) / (largest * case.strain):8.1e}, "
-            f"{work(shear, sheared[:, 0, 1]) / (most * case.shear):8.1e}; {case.source}")
+            f"{work(shear, sheared[:, 0, 1]) / (scale * case.shear):8.1e}; {case.source}")
 
 
 def main():
