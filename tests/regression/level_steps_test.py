@@ -138,6 +138,14 @@ class LevelSteps(FolderTest):
             self.assertGreater(ends[-1]["retries"], 0)
         self.assertEqual(len({end["fingerprint"] for end in ends}), 1, ends)
 
+    def test_nothing_is_lost_in_steps_that_are_repeated(self):
+        density = "Euler/geom_object/density=1+0.1*sin(2*pi*x)"
+        repeats = ("Time/recompute_timestep=true", REGRIDDER + "max_levels=4")
+        report = run("ups/euler/noh_levels.ups", OWN, density, *repeats).report
+        self.assertGreater(report["retries"], 0)
+        for key in ("mass", "energy"):
+            self.assertLessEqual(abs(report["drift"][key]), 1e-13, key)
+
     def test_sods_tube_has_the_error_of_one_step_for_all_levels(self):
         """Both runs check their grids every 8 steps of the finest level."""
         own = run("ups/euler/sod_levels.ups", OWN).report
