@@ -45,6 +45,7 @@ using grid::Level;
 using grid::Patch;
 using simulation::Component;
 using tasks::all;
+using tasks::besideFiner;
 using tasks::computes;
 using tasks::computesOwn;
 using tasks::creates;

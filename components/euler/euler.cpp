@@ -62,6 +62,11 @@ void Euler<D>::scheduleRefine(TaskList& tasks) const {
 }
 
 template <int D>
+void Euler<D>::scheduleAfterRefluxing(TaskList& tasks) const {
+  tasks.perPatch("euler::checkRefluxed", checkRefluxed<D>, with(settings_.gas), besideFiner(), all<ChangedState<D>>());
+}
+
+template <int D>
 std::vector<reference::GasLaw> Euler<D>::gases() const {
   if (settings_.gas.law)
     throw std::invalid_argument(

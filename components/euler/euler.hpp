@@ -26,6 +26,7 @@ class Euler : public Component, public reference::GasSolution {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   void scheduleRefine(TaskList& tasks) const override;
+  void scheduleAfterRefluxing(TaskList& tasks) const override;
   std::vector<simulation::Criterion> criteria() const override { return euler::criteria<D>(); }
   std::string advice() const override {
     return "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order";

@@ -195,8 +195,7 @@ int cellsOfBlocks(const input::Element& root) {
 
 std::unique_ptr<Component> makeComponent(const Level& level, const GasScene& scene) {
   if (!scene.mixture.empty() && scene.implicit) return simulation::makeByDimension<ImplicitMixtureIce>(level, scene);
-  if (!scene.mixture.empty())
-    return simulation::makeByDimension<MixtureIce>(level, scene, level.domain().refinement.levels > 1);
+  if (!scene.mixture.empty()) return simulation::makeByDimension<MixtureIce>(level, scene);
   return scene.implicit ? simulation::makeByDimension<ImplicitIce>(level, scene)
                         : simulation::makeByDimension<Ice>(level, scene);
 }

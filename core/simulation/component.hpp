@@ -53,6 +53,9 @@ class Component {
   /// `newCells()` are the cells of the patch that were coarser before. At the start of a run, cells of all levels are
   /// initialised instead.
   virtual void scheduleRefine(tasks::TaskList&) const {}
+  /// Adds tasks that check or correct what refluxing has made of coarser cells: they modify cell variables of a step,
+  /// in the cells `besideFiner()`. Each runs after the refluxing of all variables that it accesses.
+  virtual void scheduleAfterRefluxing(tasks::TaskList&) const {}
   /// Adds tasks that compute diagnostics of the old state: totals, derived fields. Tasks whose results are not needed
   /// are omitted.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}

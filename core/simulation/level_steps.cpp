@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tasks/kept_levels.hpp"
 #include "core/tasks/reflux.hpp"
 
 namespace tushar::simulation {
@@ -69,16 +68,22 @@ std::optional<data::Minimum> LevelSteps::advance(const tasks::StepInfo& whole) {
     coarsest.time += whole.delT;
     if (!asked) asked = findStableOfAll(coarsest);  // what leaves no stable step is repeated, or refused, with its step
   } catch (const NumericalError&) {
-    before.restore();
+    undo(before);
     stable_ = stableBefore;
     throw;
   }
+  if (asked) {
+    undo(before);
+    stable_ = stableBefore;
+  }
   run_.scheduler.forgetNew(graph);
   run_.warehouse.reduction<data::Minimum>(run_.delT).value = whole.delT;
-  if (!asked) return asked;
-  before.restore();
-  stable_ = stableBefore;
   return asked;
+}
+
+void LevelSteps::undo(const tasks::KeptLevels& before) {
+  if (steps_.front() > 0) run_.scheduler.exchangeLevel(run_.phases.timeAdvance, 0);
+  before.restore();
 }
 
 std::optional<data::Minimum> LevelSteps::advanceLevel(const tasks::StepInfo& at) {
@@ -89,7 +94,10 @@ std::optional<data::Minimum> LevelSteps::advanceLevel(const tasks::StepInfo& at)
     if (auto asked = advanceFiner(at)) return asked;
     if (auto asked = run_.scheduler.run(run_.phases.refluxing, at)) return asked;
   }
-  run_.scheduler.commitLevel(run_.phases.timeAdvance, at.level);
+  if (at.level == 0)
+    run_.scheduler.exchangeLevel(run_.phases.timeAdvance, 0);  // so that it can be undone
+  else
+    run_.scheduler.commitLevel(run_.phases.timeAdvance, at.level);
   stable_[static_cast<std::size_t>(at.level)].reset();
   ++steps_[static_cast<std::size_t>(at.level)];
   return std::nullopt;

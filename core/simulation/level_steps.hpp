@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/simulation/run_state.hpp"
+#include "core/tasks/kept_levels.hpp"
 
 namespace tushar::simulation {
 
@@ -33,6 +34,8 @@ class LevelSteps {
   const std::vector<int>& steps() const { return steps_; }
 
  private:
+  /// Restores the old state of all levels. That of the coarsest level is where its new state was.
+  void undo(const tasks::KeptLevels& before);
   /// Makes a step of a level, and the steps of finer levels within it.
   std::optional<data::Minimum> advanceLevel(const tasks::StepInfo& at);
   std::optional<data::Minimum> advanceFiner(const tasks::StepInfo& coarser);

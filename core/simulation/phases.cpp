@@ -122,6 +122,7 @@ Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Ana
   tasks::TaskList refine;
   component.scheduleRefine(refine);
   lists_.refine = tasks::takingOver(refine);
+  component.scheduleAfterRefluxing(lists_.afterRefluxing);
   addAnalyses(analyses);
   totals_ = totalsAmong(producedBy(lists_.diagnostics.tasks()));
   validateAll();

@@ -78,7 +78,7 @@ class Phases {
   void printLevels(std::ostream& out) const;
   struct Lists {
     tasks::TaskList initialize, stableTimeStep, timeAdvance, carefulAdvance, nextMaterials, diagnostics, afterStep,
-        errorEstimate, refine, reflux;
+        errorEstimate, refine, reflux, afterRefluxing;
   };
   /// Collects the tasks of the analysis modules, and what they add up over steps.
   void addAnalyses(const std::vector<std::unique_ptr<Analysis>>& analyses);

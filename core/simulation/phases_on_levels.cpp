@@ -31,10 +31,10 @@ void Phases::prepareLevels(int levels, bool refluxes, bool bySmallerSteps) {
 
 void Phases::addRefluxing(bool bySmallerSteps) {
   if (!bySmallerSteps) {
-    lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
+    lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance, lists_.afterRefluxing);
     return;
   }
-  tasks::SteppedByLevel lists = tasks::withRegisters(lists_.timeAdvance);
+  tasks::SteppedByLevel lists = tasks::withRegisters(lists_.timeAdvance, lists_.afterRefluxing);
   lists_.timeAdvance = std::move(lists.advance);
   lists_.reflux = std::move(lists.reflux);
 }

@@ -37,6 +37,15 @@ std::vector<long> RunReport::cellsOfLevels() const {
   return cells;
 }
 
+/// The number of steps that a uniform grid of the finest cells would have taken in one step of all levels: twice as
+/// many for each finest level without cells.
+double RunReport::stepsOfFinest() const {
+  double steps = 1;
+  const std::vector<long> cells = cellsOfLevels();
+  for (std::size_t level = cells.size(); level-- > 1 && cells[level] == 0;) steps *= 2;
+  return steps;
+}
+
 /// Counts the cell updates of levels. To estimate the updates of a uniform grid, a finest level without cells counts as
 /// if it had taken twice as many steps as the next coarser level.
 void RunReport::noteLevels(const std::vector<int>& steps) {
@@ -59,7 +68,7 @@ void RunReport::noteStep(const std::vector<int>& stepsOfLevels) {
   } else {
     run_.addStepToReported();
     updates_ += static_cast<double>(cellsOf(*run_.problem.grid));
-    uniform_updates_ += static_cast<double>(run_.problem.grid->finest().cells().size());
+    uniform_updates_ += stepsOfFinest() * static_cast<double>(run_.problem.grid->finest().cells().size());
   }
   for (int material = 0; material < run_.materials(); ++material)
     for (const grid::Patch& patch : run_.problem.grid->patches())

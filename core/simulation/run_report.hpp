@@ -27,6 +27,7 @@ class RunReport {
  private:
   void noteLevels(const std::vector<int>& steps);
   std::vector<long> cellsOfLevels() const;
+  double stepsOfFinest() const;
   void addMemory(report::Report& report, double fileMemory);
   void addLayout(report::Report& report);
   void addProgress(report::Report& report);

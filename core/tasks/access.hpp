@@ -332,7 +332,8 @@ OfMaterials<Argument> ofMaterials(MaterialRange range, Argument argument) {
   return {range, std::move(argument)};
 }
 
-/// Whether an argument is allowed only in tasks that run once per rank; whether it is that of marks() or newCells().
+/// Whether an argument is allowed only in tasks that run once per rank; whether it is that of marks();
+/// whether it passes cells of a patch, as newCells() does.
 template <class Argument>
 inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument> || std::is_same_v<Argument, WorkersArgument>;
 template <class Argument>

@@ -61,6 +61,13 @@ class TaskContext {
   data::Variable variable(int access) const;
   /// The faces at which the patch meets patches of other levels.
   const std::vector<grid::RimPiece>& rims() const { return warehouse_->grid().rims(patch_->id()); }
+  /// The cells of the patch that have faces to finer cells.
+  std::vector<grid::Box> besideFiner() const {
+    std::vector<grid::Box> boxes;
+    for (const grid::RimPiece& piece : rims())
+      if (piece.isFiner) boxes.push_back(piece.cells);
+    return boxes;
+  }
   /// The cells of the patch that regridding has just refined.
   const std::vector<grid::Box>& newCells() const { return warehouse_->grid().newCells(patch_->id()); }
   template <class T>

@@ -56,4 +56,14 @@ inline NewCellsAccess newCells() { return {}; }
 template <>
 inline constexpr bool isNewCells<NewCellsAccess> = true;
 
+struct BesideFinerAccess {
+  void declare(std::vector<Access>&) {}
+  std::vector<grid::Box> bind(const TaskContext& context) const { return context.besideFiner(); }
+};
+/// Passes the boxes of the cells of a patch that have faces to finer cells to the body: a const std::vector<Box>&. For
+/// tasks of Component::scheduleAfterRefluxing, except those of a rank. Boxes of different axes may overlap.
+inline BesideFinerAccess besideFiner() { return {}; }
+template <>
+inline constexpr bool isNewCells<BesideFinerAccess> = true;
+
 }  // namespace tushar::tasks

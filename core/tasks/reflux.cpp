@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/data/rim_flux.hpp"
@@ -119,18 +120,44 @@ TaskList withTasksBehindFluxes(const TaskList& list, const Behind& behind) {
   return with;
 }
 
-}  // namespace
-
-TaskList withRefluxing(const TaskList& list) {
-  return withTasksBehindFluxes(list, [](TaskList& with, const Flowing& flowing) { with.add(refluxTask(flowing)); });
+/// Whether a task is that which corrects a variable that another task accesses.
+bool corrects(const Task& task, const Task& other) {
+  return std::any_of(other.accesses.begin(), other.accesses.end(), [&](const Access& access) {
+    return task.name == Flowing{access.label, {}}.named("reflux");
+  });
 }
 
-SteppedByLevel withRegisters(const TaskList& list) {
+/// Returns the list with the tasks `after`, each behind the last task that corrects any of its variables.
+TaskList withTasksAfter(const TaskList& list, const TaskList& after) {
+  std::vector<std::vector<Task>> behind(list.tasks().size());
+  for (const Task& task : after.tasks())
+    for (std::size_t t = behind.size(); t-- > 0;)
+      if (corrects(list.tasks()[t], task)) {
+        behind[t].push_back(task);
+        break;
+      }
+  TaskList with;
+  for (std::size_t t = 0; t < behind.size(); ++t) {
+    with.add(list.tasks()[t]);
+    for (const Task& task : behind[t]) with.add(task);
+  }
+  return with;
+}
+
+}  // namespace
+
+TaskList withRefluxing(const TaskList& list, const TaskList& after) {
+  const auto add = [](TaskList& with, const Flowing& flowing) { with.add(refluxTask(flowing)); };
+  return withTasksAfter(withTasksBehindFluxes(list, add), after);
+}
+
+SteppedByLevel withRegisters(const TaskList& list, const TaskList& after) {
   SteppedByLevel lists;
   lists.advance = withTasksBehindFluxes(list, [&](TaskList& with, const Flowing& flowing) {
     with.add(registerTask(flowing));
     lists.reflux.add(refluxTaskOfSteps(flowing));
   });
+  lists.reflux = withTasksAfter(lists.reflux, after);
   return lists;
 }
 

@@ -14,7 +14,10 @@ namespace tushar::tasks {
 ///
 /// axis by axis, the lower face first. So the amount that leaves one level enters the other, and totals are conserved
 /// to round-off. Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64.
-TaskList withRefluxing(const TaskList& list);
+///
+/// Each of the tasks `after` is placed behind the last of these tasks whose variable it accesses; those that access
+/// none are left out.
+TaskList withRefluxing(const TaskList& list, const TaskList& after = {});
 
 /// The fraction of the next coarser level's step that has elapsed when a level's step begins.
 inline constexpr data::ReductionLabel<data::Minimum> partOfStep{
@@ -25,10 +28,11 @@ struct SteppedByLevel {
   /// The step of one level: after the last task that keeps the fluxes of a variable, a task adds the fluxes times the
   /// step to a register, which sums over all steps within one step of the next coarser level.
   TaskList advance;
-  /// Runs on the coarser level after the finer steps: U += ± 1 / h (dt F - mean of the finer level's sums of dt F).
+  /// Runs on the coarser level after the finer steps: U += ± 1 / h (dt F - mean of the finer level's sums of dt F), and
+  /// then the tasks `after`.
   TaskList reflux;
 };
-SteppedByLevel withRegisters(const TaskList& list);
+SteppedByLevel withRegisters(const TaskList& list, const TaskList& after = {});
 
 /// The names of the registers used in a list.
 Names registersOf(const TaskList& list);

@@ -35,8 +35,8 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 /// task that gets all patches of a rank together is run by all ranks that have patches, or by none.
 ///
 /// A graph whose tasks use only cells of their own level may be run on one level after the other, each with its own
-/// step: the results remain on all levels until forgetNew(), and commitLevel() copies those of one level to its old
-/// state.
+/// step: the results remain on all levels until forgetNew(). commitLevel() copies those of one level to its old state,
+/// and exchangeLevel() exchanges them with it.
 class Scheduler {
  public:
   /// Uses up to `threads` threads, but at most one per patch of this rank and one per `cellsPerThread` cells of a rank
@@ -67,6 +67,8 @@ class Scheduler {
   void commit(TaskGraph& graph);
   /// Copies the results of a graph on one level to the old state.
   void commitLevel(const TaskGraph& graph, int level);
+  /// Exchanges the results of a graph on one level with the old state; a second call undoes the first.
+  void exchangeLevel(const TaskGraph& graph, int level);
   /// Discards the results of a graph that was run level by level.
   void forgetNew(const TaskGraph& graph);
 
@@ -101,6 +103,9 @@ class Scheduler {
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
   /// Whether the graph runs on the patch with this index on this rank.
   bool isOfLevel(std::size_t place) const;
+  /// Calls `work(new values, old values)` for each result of a graph on each patch of a level.
+  template <class Work>
+  void forEachResult(const TaskGraph& graph, int level, const Work& work);
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
   /// Starts a run of the first `end` tasks.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 
 #include "core/tasks/kept_levels.hpp"
@@ -13,19 +14,30 @@ bool Scheduler::isOfLevel(std::size_t place) const {
   return level_ < 0 || warehouse_->grid().patches()[place].level().number() == level_;
 }
 
-void Scheduler::commitLevel(const TaskGraph& graph, int level) {
+template <class Work>
+void Scheduler::forEachResult(const TaskGraph& graph, int level, const Work& work) {
   const std::vector<grid::Patch>& patches = warehouse_->grid().patches();
   for (const int number : graph.results())
     if (!isHeld(*warehouse_, Generation::old, number)) warehouse_->allocateGrid(Generation::old, number);
-  const auto copy = [&](int place) {
+  threads_.forEach(static_cast<int>(patches.size()), [&](int place) {
     const grid::Patch& patch = patches[static_cast<std::size_t>(place)];
     if (patch.level().number() != level) return;
-    for (const int number : graph.results()) {
-      const std::span<std::byte> values = valuesOn(*warehouse_, Generation::fresh, number, patch);
-      std::memcpy(valuesOn(*warehouse_, Generation::old, number, patch).data(), values.data(), values.size());
-    }
-  };
-  threads_.forEach(static_cast<int>(patches.size()), copy);
+    for (const int number : graph.results())
+      work(valuesOn(*warehouse_, Generation::fresh, number, patch),
+           valuesOn(*warehouse_, Generation::old, number, patch));
+  });
+}
+
+void Scheduler::commitLevel(const TaskGraph& graph, int level) {
+  forEachResult(graph, level, [](std::span<std::byte> fresh, std::span<std::byte> old) {
+    std::memcpy(old.data(), fresh.data(), fresh.size());
+  });
+}
+
+void Scheduler::exchangeLevel(const TaskGraph& graph, int level) {
+  forEachResult(graph, level, [](std::span<std::byte> fresh, std::span<std::byte> old) {
+    std::swap_ranges(fresh.begin(), fresh.end(), old.begin());
+  });
 }
 
 void Scheduler::forgetNew(const TaskGraph& graph) {

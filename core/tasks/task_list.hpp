@@ -172,7 +172,7 @@ class TaskList {
                   "withoutMaterial(...) is allowed only in perMaterial and acrossMaterials");
     static_assert(on == On::patch || !(isMarks<Arguments> || ...), "marks() is allowed only in perPatch");
     static_assert(!isOnRank || !(isNewCells<Arguments> || ...),
-                  "newCells() is allowed only in tasks of a patch, not in those of a rank");
+                  "newCells() and besideFiner() are allowed only in tasks of a patch, not in those of a rank");
   }
   template <Allowed allowed, class... Arguments>
   static std::vector<Access> declare(Arguments&... arguments) {

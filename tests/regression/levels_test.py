@@ -218,6 +218,12 @@ class Levels(FolderTest):
         for name in ("c.density", "c.velocity", "c.pressure"):
             np.testing.assert_array_equal(fine[-1][name].values, plain[-1][name].values)
 
+    def test_a_uniform_grid_would_take_the_steps_of_its_cells(self):
+        """Nothing moves, so no cell is refined: steps are those of cells four times as wide."""
+        _, report = self.ran(scene_of(amr=adaptive()), steps(3))
+        self.assertEqual(report["levels"], [16 ** 2, 0, 0])
+        self.assertEqual(report["uniform_updates"], 4 * 3 * 64 ** 2)
+
     def test_sods_tube_has_the_error_of_eight_times_as_many_cells_for_less(self):
         report = run("ups/euler/sod_levels.ups").report
         fine = run("ups/euler/sod.ups", BASE + "[800,1,1]").report

@@ -65,14 +65,38 @@ AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases) 
 }
 
 template <int D>
-void closeShares(const Patch& patch, const std::vector<Settings>&, const std::vector<CellView<double>>& shares) {
+void closeRefluxed(const Patch&, const std::vector<Settings>&, const std::vector<Box>& besideFiner,
+                   const std::vector<CellView<double>>& shares) {
   constexpr double roundOff = 1e-12;
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double sum = 0;
-    for (const CellView<double>& share : shares) sum += share[cell];
-    if (std::abs(sum - 1) > roundOff)
-      for (const CellView<double>& share : shares) share[cell] /= sum;
-  });
+  for (const Box& box : besideFiner)
+    forEach<D>(box, [&](const Index<D>& cell) {
+      double sum = 0;
+      for (const CellView<double>& share : shares) sum += share[cell];
+      if (std::abs(sum - 1) > roundOff)
+        for (const CellView<double>& share : shares) share[cell] /= sum;
+    });
+}
+
+template <int D>
+void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares) {
+  closeRefluxed<D>(patch, gases, {patch.cells()}, shares);
+}
+
+template <int D>
+void checkRefluxedMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& besideFiner,
+                          const ChangedState<D>& state, const std::vector<ChangedGas>& held) {
+  const auto isFine = [&](const Index<D>& cell) { return isPossible<D, ChangedGas, double>(gases, held, state, cell); };
+  const std::optional<Index<D>> broken = firstFailing<D>(patch.level(), besideFiner, isFine);
+  const BlendLaws* laws = gases.front().blend.get();
+  if (broken && laws)
+    refuseBlend<D>(*laws, patch.level(), *broken, massesIn(held, *broken), internalEnergyIn<D, double>(state, *broken));
+  if (broken) refuseState<D, double>(patch.level(), mixedAt(gases, held, *broken).alike(), *broken, state, nullptr);
+  for (const Box& box : besideFiner)
+    forEach<D>(box, [&](const Index<D>& cell) {
+      if (!laws) return;
+      const Blend blend = blendAt(gases, held, internalEnergyIn<D, double>(state, cell), cell);
+      for (std::size_t k = 0; k < held.size(); ++k) held[k].share[cell] = blend.shares[k];
+    });
 }
 
 template <int D>
@@ -156,6 +180,10 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, co
                                     const StateViews<D, double>&);                                                     \
   template AdvanceMixture<D> chooseAdvanceMixture<D>(const Method&, std::size_t);                                      \
   template void closeShares<D>(const Patch&, const std::vector<Settings>&, const std::vector<CellView<double>>&);      \
+  template void closeRefluxed<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,                  \
+                                 const std::vector<CellView<double>>&);                                                \
+  template void checkRefluxedMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,           \
+                                        const ChangedState<D>&, const std::vector<ChangedGas>&);                       \
   template void mendNewMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,                 \
                                   const ChangedState<D>&, const std::vector<ChangedGas>&);                             \
   template void closeBlend<D>(const Patch&, const std::vector<Settings>&, CellView<const double>,                      \

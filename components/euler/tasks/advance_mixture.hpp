@@ -132,6 +132,10 @@ AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 /// were corrected. The sum contains the correction of the flux of volume. Other cells are unchanged.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
+/// The same for cells beside finer ones.
+template <int D>
+void closeRefluxed(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& besideFiner,
+                   const std::vector<CellView<double>>& shares);
 
 /// Sets the volume fractions of gases with laws of their own to those in equilibrium. Throws NumericalError for the
 /// first cell with an impossible state, if there is one.
@@ -159,6 +163,12 @@ struct ChangedGas {
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);
+
+/// Throws NumericalError if refluxing has made the state of a cell beside finer cells impossible. For gases with laws
+/// of their own, sets the volume fractions there to those in equilibrium.
+template <int D>
+void checkRefluxedMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& besideFiner,
+                          const ChangedState<D>& state, const std::vector<ChangedGas>& held);
 
 /// Computes dt like computeStableTimeStep, with rho c² = (p (1 + G) + S) / G.
 /// Throws NumericalError where a state is impossible.

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "components/euler/rows.hpp"
 #include "components/euler/state_views.hpp"
@@ -104,15 +106,40 @@ TUSHAR_REFUSE_STATES(extern, 1)
 TUSHAR_REFUSE_STATES(extern, 2)
 TUSHAR_REFUSE_STATES(extern, 3)
 
+/// Whether the state of a cell is possible.
+template <int D, class T>
+bool isPossible(const Gas& gas, const StateViews<D, T>& state, const Index<D>& cell) {
+  return canBe<D>(gas, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1) &&
+         (gas.law || pressureIn(gas, state, cell) + gas.pInfinity > 0);
+}
+
 /// Throws NumericalError for the first cell of the patch with an impossible state, if there is one.
 template <int D, class T>
 void refuseBroken(const Patch& patch, const Gas& gas, const StateViews<D, T>& state,
                   const StateViews<D, const double>* before) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const bool fine = canBe<D>(gas, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
-    if (!fine || (!gas.law && !(pressureIn(gas, state, cell) + gas.pInfinity > 0)))
-      refuseState<D>(patch.level(), gas, cell, state, before);
+    if (!isPossible<D, T>(gas, state, cell)) refuseState<D>(patch.level(), gas, cell, state, before);
   });
+}
+
+/// The first cell, in the order of errors, in any of some boxes for which a test fails.
+template <int D, class Test>
+std::optional<Index<D>> firstFailing(const Level& level, const std::vector<Box>& boxes, const Test& test) {
+  std::optional<Index<D>> first;
+  for (const Box& box : boxes)
+    forEach<D>(box, [&](const Index<D>& cell) {
+      if (!test(cell) && (!first || level.cellNumber<D>(cell) < level.cellNumber<D>(*first))) first = cell;
+    });
+  return first;
+}
+
+/// Throws NumericalError if refluxing has made the state of a cell beside finer cells impossible.
+template <int D>
+void checkRefluxed(const Patch& patch, const Gas& gas, const std::vector<Box>& besideFiner,
+                   const ChangedState<D>& state) {
+  const auto isFine = [&](const Index<D>& cell) { return isPossible<D, double>(gas, state, cell); };
+  if (const auto cell = firstFailing<D>(patch.level(), besideFiner, isFine))
+    refuseState<D, double>(patch.level(), gas, *cell, state, nullptr);
 }
 
 }  // namespace tushar::euler

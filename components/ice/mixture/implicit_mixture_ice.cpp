@@ -5,7 +5,7 @@ namespace tushar::ice {
 
 template <int D>
 ImplicitMixtureIce<D>::ImplicitMixtureIce(const GasScene& scene)
-    : MixtureIce<D>(scene, false),
+    : MixtureIce<D>(scene),
       acting_{.diffusion = {},
               .gravity = scene.gravity,
               .push = scene.push,

@@ -34,7 +34,7 @@ std::vector<BurningGas> burningOf(const GasScene& scene) {
 }  // namespace
 
 template <int D>
-MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
+MixtureIce<D>::MixtureIce(const GasScene& scene)
     : method_(scene.gas.method),
       courant_(scene.gas.courant),
       gravity_(scene.gravity),
@@ -46,7 +46,6 @@ MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
       reactions_(reactionsOf(scene)),
       heat_(scene.exchange.value_or(Exchange()).heatCoefficients()),
       heating_(scene.heating),
-      hasLevels_(hasLevels),
       binary_(scene.gas.name),
       isBinary_(scene.binary.has_value()) {
   for (const euler::Settings& gas : gases_) totals_.push_back(std::make_shared<const GasTotal>(gas.name));
@@ -97,8 +96,6 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                         withoutMaterial(all<euler::OldState<D>>(ghost)), all<euler::OldGas>(ghost), startTime(),
                         requiresOld(delT), withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>(),
                         withoutMaterial(all<euler::RimFluxes<D>>(false)), all<euler::GasRims>());
-  if (hasLevels_ && !areBlended())
-    tasks.acrossMaterials("ice::closeShares", euler::closeShares<D>, gases_, modifies(euler::c::gasShare));
   scheduleSources(tasks);
   if (!push_.isZero(0))
     tasks.perPatch("euler::addForce", euler::addForce<D>, with(push_), requiresNew(euler::c::density),
@@ -155,6 +152,15 @@ void MixtureIce<D>::scheduleHeat(TaskList& tasks) const {
 template <int D>
 void MixtureIce<D>::scheduleRefine(TaskList& tasks) const {
   tasks.acrossMaterials("euler::mendNewMixture", euler::mendNewMixture<D>, gases_, newCells(),
+                        withoutMaterial(all<euler::ChangedState<D>>()), all<euler::ChangedGas>());
+}
+
+template <int D>
+void MixtureIce<D>::scheduleAfterRefluxing(TaskList& tasks) const {
+  if (!areBlended())
+    tasks.acrossMaterials("ice::closeRefluxed", euler::closeRefluxed<D>, gases_, besideFiner(),
+                          modifies(euler::c::gasShare));
+  tasks.acrossMaterials("ice::checkRefluxed", euler::checkRefluxedMixture<D>, gases_, besideFiner(),
                         withoutMaterial(all<euler::ChangedState<D>>()), all<euler::ChangedGas>());
 }
 

@@ -16,13 +16,13 @@ namespace tushar::ice {
 template <int D>
 class MixtureIce : public Component, public reference::GasSolution {
  public:
-  /// `hasLevels`: whether the grid may have several levels.
-  MixtureIce(const GasScene& scene, bool hasLevels);
+  explicit MixtureIce(const GasScene& scene);
 
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleRefine(TaskList& tasks) const override;
+  void scheduleAfterRefluxing(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   std::string advice() const override { return adviceForGas; }
   bool mayRepeatStep() const override { return true; }
@@ -64,7 +64,6 @@ class MixtureIce : public Component, public reference::GasSolution {
   std::vector<Reaction> reactions_;
   HeatCoefficients heat_;
   Heating heating_;
-  bool hasLevels_;
   std::string binary_;     ///< with BinaryProperties, the name of the gas of the scene
   bool isBinary_ = false;  ///< whether the gases are the two parts of a single gas of the scene
   std::vector<std::shared_ptr<const GasTotal>> totals_;
