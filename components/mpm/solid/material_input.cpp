@@ -292,12 +292,12 @@ void noteMissingFollowers(const Element& contact, int count, Diagnostics& diagno
     const auto master = contact.child("master_material");
     taking.insert(master ? input::parse<int>(master->text()).value.value_or(0) : 0);
   }
-  for (const int number : *listed)
-    if (number >= 0 && number < count)
-      taking.insert(number);
-    else
-      diagnostics.note(*given,
-                       fmt::format("there is no material {}; materials are numbered from 0 to {}", number, count - 1));
+  std::set<int> missing;
+  for (const int number : *listed) (number >= 0 && number < count ? taking : missing).insert(number);
+  if (!missing.empty())
+    diagnostics.note(
+        *given, fmt::format("there is no material {}{}; materials are numbered from 0 to {}", *missing.begin(),
+                            missing.size() == 1 ? "" : fmt::format(", and {} more", missing.size() - 1), count - 1));
   if (taking.size() < 2) diagnostics.note(*given, "lists less than two materials, so that this contact has no effect");
 }
 
