@@ -2,12 +2,12 @@
 
 #include <stdexcept>
 
+#include "components/euler/interpolate_gas.hpp"
 #include "components/euler/tasks/advance.hpp"
 #include "components/euler/tasks/compute_stable_time_step.hpp"
 #include "components/euler/tasks/diagnose.hpp"
 #include "components/euler/tasks/initialize.hpp"
 #include "components/euler/tasks/measure_error.hpp"
-#include "components/euler/tasks/mend_new_cells.hpp"
 
 namespace tushar::euler {
 
@@ -57,13 +57,13 @@ void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
 }
 
 template <int D>
-void Euler<D>::scheduleRefine(TaskList& tasks) const {
-  tasks.perPatch("euler::mendNewCells", mendNewCells<D>, with(settings_.gas), newCells(), all<ChangedState<D>>());
+void Euler<D>::scheduleAfterRefluxing(TaskList& tasks) const {
+  tasks.perPatch("euler::checkRefluxed", checkRefluxed<D>, with(settings_.gas), besideFiner(), all<ChangedState<D>>());
 }
 
 template <int D>
-void Euler<D>::scheduleAfterRefluxing(TaskList& tasks) const {
-  tasks.perPatch("euler::checkRefluxed", checkRefluxed<D>, with(settings_.gas), besideFiner(), all<ChangedState<D>>());
+std::vector<std::shared_ptr<const data::JointInterpolation>> Euler<D>::jointInterpolations() const {
+  return {std::make_shared<const GasInterpolation<D>>(settings_.gas, carried())};
 }
 
 template <int D>

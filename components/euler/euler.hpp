@@ -25,8 +25,8 @@ class Euler : public Component, public reference::GasSolution {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
-  void scheduleRefine(TaskList& tasks) const override;
   void scheduleAfterRefluxing(TaskList& tasks) const override;
+  std::vector<std::shared_ptr<const data::JointInterpolation>> jointInterpolations() const override;
   std::vector<simulation::Criterion> criteria() const override { return euler::criteria<D>(); }
   std::string advice() const override {
     return "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order";
@@ -40,6 +40,8 @@ class Euler : public Component, public reference::GasSolution {
   const Settings& settings() const { return settings_; }
   /// Whether the gas carries any other quantities, whose fluxes follow from the mass flux.
   virtual bool keepsFaceMasses() const { return false; }
+  /// The labels of these quantities, each times the density.
+  virtual std::vector<const data::Label*> carried() const { return {}; }
 
  private:
   Settings settings_;

@@ -44,6 +44,11 @@ class Ice : public euler::Euler<D> {
   const IceSettings& acting() const { return acting_; }
   const euler::VaryingDiffusion& varying() const { return varying_; }
   bool keepsFaceMasses() const override { return !scalars_.empty(); }
+  std::vector<const data::Label*> carried() const override {
+    std::vector<const data::Label*> labels;
+    for (const auto& one : scalars_) labels.push_back(&one->held());
+    return labels;
+  }
   /// Adds the tasks that advect scalars after the step of the gas.
   void scheduleScalars(TaskList& tasks) const;
   /// Adds the tasks that move and make tracers, at the end of the step.

@@ -40,6 +40,23 @@ void VariableTable::widen(int number, int ghost) {
   reaches_[material] = std::max(reaches_[material], ghost);
 }
 
+void VariableTable::join(std::shared_ptr<const JointInterpolation> how) {
+  Joint joint{{}, {}, std::move(how)};
+  for (const VariableName& name : joint.how->variables()) {
+    joint.variables.push_back(number(*name.label, name.material));
+    joint.labels.push_back(name.label);
+  }
+  joints_.push_back(std::move(joint));
+}
+
+void VariableTable::widenJoints() {
+  for (const Joint& joint : joints_) {
+    int widest = 0;
+    for (const int number : joint.variables) widest = std::max(widest, ghost(number));
+    for (const int number : joint.variables) widen(number, widest);
+  }
+}
+
 Warehouse::Warehouse(const grid::Grid& grid, VariableTable& table)
     : Warehouse(grid, table, mpi::Communicator::alone()) {}
 

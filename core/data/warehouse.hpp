@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/data/buffer_pool.hpp"
+#include "core/data/joint_interpolation.hpp"
 #include "core/data/label.hpp"
 #include "core/data/particle_set.hpp"
 #include "core/data/slots.hpp"
@@ -20,12 +21,6 @@ class Communicator;
 }
 
 namespace tushar::data {
-
-/// A label and its material; `material` is -1 for variables that do not belong to a material.
-struct VariableName {
-  const Label* label;
-  int material;
-};
 
 /// Assigns an index to each variable of a run, so that the time loop never looks up a name.
 class VariableTable {
@@ -44,10 +39,22 @@ class VariableTable {
   /// The largest number of ghost layers with which any task reads any particle variable of a material.
   int reach(int material) const { return material < static_cast<int>(reaches_.size()) ? reaches_[material] : 0; }
 
+  /// Variables that are interpolated together between levels, by their indices.
+  struct Joint {
+    std::vector<int> variables;
+    std::vector<const Label*> labels;
+    std::shared_ptr<const JointInterpolation> how;
+  };
+  void join(std::shared_ptr<const JointInterpolation> how);
+  const std::vector<Joint>& joints() const { return joints_; }
+  /// Gives all variables of a joint the same number of ghost layers. Called when all lists are compiled.
+  void widenJoints();
+
  private:
   static std::string key(std::string_view name, int material);
   std::vector<VariableName> names_;
   std::vector<int> ghosts_, reaches_;
+  std::vector<Joint> joints_;
   std::unordered_map<std::string, int> numbers_;
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/data/joint_interpolation.hpp"
 #include "core/simulation/reported.hpp"
 #include "core/simulation/settings.hpp"
 #include "core/tasks/task_list.hpp"
@@ -56,6 +58,9 @@ class Component {
   /// Adds tasks that check or correct what refluxing has made of coarser cells: they modify cell variables of a step,
   /// in the cells `besideFiner()`. Each runs after the refluxing of all variables that it accesses.
   virtual void scheduleAfterRefluxing(tasks::TaskList&) const {}
+  /// Cell variables that are interpolated together where cells become finer, and for ghosts in coarser cells. A
+  /// variable must not be in two of them.
+  virtual std::vector<std::shared_ptr<const data::JointInterpolation>> jointInterpolations() const { return {}; }
   /// Adds tasks that compute diagnostics of the old state: totals, derived fields. Tasks whose results are not needed
   /// are omitted.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}

@@ -107,7 +107,7 @@ Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
 }  // namespace
 
 Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
-    : reported_(component.reported()) {
+    : joints_(component.jointInterpolations()), reported_(component.reported()) {
   component.scheduleInitialize(lists_.initialize);
   component.scheduleComputeStableTimeStep(lists_.stableTimeStep);
   component.scheduleTimeAdvance(lists_.timeAdvance);
@@ -275,13 +275,15 @@ void numberSteps(bool bySmallerSteps, data::VariableTable& table) {
   if (bySmallerSteps) table.number(tasks::partOfStep, -1);
 }
 
-/// Records that regridding interpolates cell variables, including those of materials, from surrounding cells.
-void widenForRegridding(const std::vector<std::string>& lasting, int materials, data::VariableTable& table) {
-  for (const std::string& name : lasting)
+/// Records that regridding interpolates cell variables, including those of materials, from surrounding cells, if the
+/// grid is adaptive. Variables that are interpolated together have equally many ghosts.
+void widenGhosts(const std::vector<std::string>& lasting, bool isAdaptive, int materials, data::VariableTable& table) {
+  for (const std::string& name : isAdaptive ? lasting : std::vector<std::string>())
     for (int material = -1; material < materials; ++material)
       if (const int number = table.find(name, material);
           number >= 0 && table[number].label->centring == data::Centring::cell)
         table.widen(number, 1);
+  table.widenJoints();
 }
 
 void throwIfAny(std::vector<InputProblem> problems) {
@@ -341,7 +343,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
                      const std::optional<Location>& smallerSteps) {
   takeSaves(saves, analyses);
   if (grid.levels() > 1) refuseSavedNodes(analyses);
-  prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value());
+  prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value(), table);
   const Lists& lists = lists_;
   const Names stepped = namesOfSteps();
   const Names totals = namesOf(totals_);
@@ -386,7 +388,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   refined = tasks::TaskGraph("new finer cells", std::move(mend), grid, table);
   refluxing = refluxingGraph(lists.reflux, stepped, grid, table);
   numberSteps(smallerSteps.has_value(), table);
-  if (regrid.adaptive) widenForRegridding(lasting_, static_cast<int>(materials_.size()), table);
+  widenGhosts(lasting_, regrid.adaptive, static_cast<int>(materials_.size()), table);
 }
 
 }  // namespace tushar::simulation

@@ -88,8 +88,8 @@ class Phases {
   tasks::Names namesOfSteps() const;
   /// The tasks for those sums over steps that are read `always` or `atEnd`; adds what they need to `atEnd`.
   tasks::Pruned addSums(const tasks::Names& always, tasks::Names& atEnd) const;
-  /// Stores the number of levels and how they step, and adds the tasks that several levels need.
-  void prepareLevels(int levels, bool refluxes, bool bySmallerSteps);
+  /// Stores the number of levels and how they step, and adds the tasks and joints that several levels need.
+  void prepareLevels(int levels, bool refluxes, bool bySmallerSteps, data::VariableTable& table);
   /// Adds the tasks that keep totals constant across levels (refluxing).
   void addRefluxing(bool bySmallerSteps);
   void validateAll() const;
@@ -111,6 +111,7 @@ class Phases {
   void sortSaves(const std::vector<SaveRequest>& saves);
 
   Lists lists_;
+  std::vector<std::shared_ptr<const data::JointInterpolation>> joints_;
   std::string about_careful_steps_;
   std::vector<std::string> state_, lasting_, saved_globals_, materials_;
   tasks::Names summed_;  ///< the variables that analysis modules add up over steps

@@ -23,10 +23,12 @@ void Phases::refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& anal
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-void Phases::prepareLevels(int levels, bool refluxes, bool bySmallerSteps) {
+void Phases::prepareLevels(int levels, bool refluxes, bool bySmallerSteps, data::VariableTable& table) {
   levels_ = levels;
   smaller_steps_ = bySmallerSteps;
-  if (levels > 1 && refluxes) addRefluxing(bySmallerSteps);
+  if (levels == 1) return;
+  if (refluxes) addRefluxing(bySmallerSteps);
+  for (const auto& joint : joints_) table.join(joint);
 }
 
 void Phases::addRefluxing(bool bySmallerSteps) {

@@ -60,6 +60,7 @@ void Exchange::findPlans() {
     reach.level = level_;
     plans_of_fills_.push_back(&plans_.of(warehouse_->grid(), reach));
   }
+  findJoints();
 }
 
 void Exchange::begin(bool hasStopped) {
@@ -95,6 +96,7 @@ bool Exchange::finish() {
   if (has_stopped_ || !hasMessages) return !has_stopped_;
   const auto unpack = [&] {
     for (std::size_t k = 0; k < fills_.size(); ++k) fillFromElsewhere(fills_[k], resolves_[k], messages);
+    fillTogetherFromElsewhere();
   };
   threads_->alone(unpack, trace::Kind::message, "unpack");
   return true;
@@ -112,7 +114,7 @@ void Exchange::forEach(const Work& work) {
     const std::size_t at = place;
     if (level_ >= 0 && patches[at].level().number() != level_) return;
     const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
-    for (const BoundGhostFill& fill : fills_) work(fill, patches[at], at);
+    work(patches[at], at);
   };
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
@@ -129,13 +131,17 @@ void Exchange::fillFromHere() {
   const bool copies = warehouse_->grid().level().isPeriodic();  // otherwise particles of this rank are read in place
   if (!copies && std::all_of(fills_.begin(), fills_.end(), [](const BoundGhostFill& fill) { return fill.particles; }))
     return;
-  forEach([&](const BoundGhostFill& fill, const Patch& patch, std::size_t place) {
-    if (fill.particles && copies) fillCopies(fill, patch, nullptr);
-    if (fill.particles) return;
-    const FilledValues values(*warehouse_, fill);
-    for (const GhostCopy& copy : planOf(fill).into[place])
-      if (isHere(copy) && copy.coarse < 0) copyGrid(fill, copy, values);
-    if (planOf(fill).isLocal[place]) fillFromCoarser(fill, place, nullptr);
+  forEach([&](const Patch& patch, std::size_t place) {
+    for (const BoundGhostFill& fill : fills_) {
+      if (fill.particles && copies) fillCopies(fill, patch, nullptr);
+      if (fill.particles) continue;
+      const FilledValues values(*warehouse_, fill);
+      for (const GhostCopy& copy : planOf(fill).into[place])
+        if (isHere(copy) && copy.coarse < 0) copyGrid(fill, copy, values);
+      if (planOf(fill).isLocal[place] && !jointOf(fill)) fillFromCoarser(fill, place, nullptr);
+    }
+    for (const JointFill& joint : joints_)
+      if (isLocal(joint, place)) fillTogether(joint, place);
   });
 }
 
@@ -225,13 +231,27 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
 /// Interpolates ghosts in coarser cells once the values of these cells are complete. If `messages` is given, also fills
 /// all other ghosts that the patch gets from other ranks.
 void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages) {
+  const std::vector<CoarseGhosts>& parts = planOf(fill).coarse[place];
+  if (parts.empty() && !messages) return;
+  thread_local Bytes coarse;
+  gatherCoarse(fill, place, messages, coarse);
+  const FilledValues values(*warehouse_, fill);
+  const CellValues own = values.on(warehouse_->grid().patches()[place].id());
+  std::byte* from = coarse.data();
+  for (const CoarseGhosts& part : parts) {
+    prolong(values.label, warehouse_->grid().dimension(), {from, part.cells}, part.ghosts, own);
+    from += part.cells.size() * values.label.bytes;
+  }
+}
+
+/// Puts the values of the coarser cells from which ghosts of a patch are interpolated into `coarse`, one part after the
+/// other. If `messages` is given, also fills all other ghosts that the patch gets from other ranks.
+void Exchange::gatherCoarse(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages, Bytes& coarse) {
   const GhostPlan& plan = planOf(fill);
   const std::vector<CoarseGhosts>& parts = plan.coarse[place];
-  if (parts.empty() && !messages) return;
   const FilledValues values(*warehouse_, fill);
   const std::size_t bytes = values.label.bytes;
   thread_local std::vector<std::size_t> first;  // of each part in `coarse`
-  thread_local Bytes coarse;
   first.assign(1, 0);
   for (const CoarseGhosts& part : parts) first.push_back(first.back() + part.cells.size() * bytes);
   if (coarse.size() < first.back()) coarse.resize(first.back());
@@ -244,10 +264,6 @@ void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, Re
     else
       isNear(fill) ? messages->takeNear(copy, bytes, to) : messages->takeGrid(copy, bytes, to);
   }
-  const CellValues own = values.on(warehouse_->grid().patches()[place].id());
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    prolong(values.label, warehouse_->grid().dimension(), {coarse.data() + first[k], parts[k].cells}, parts[k].ghosts,
-            own);
 }
 
 void Exchange::fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages) {
@@ -258,8 +274,10 @@ void Exchange::fillFromElsewhere(const BoundGhostFill& fill, bool resolves, Rece
   for (std::size_t place = 0; place < patches.size(); ++place)
     if (fill.particles)
       fillCopies(fill, patches[place], &messages);
-    else if (!plan.isLocal[place])
+    else if (!plan.isLocal[place] && !jointOf(fill))
       fillFromCoarser(fill, place, &messages);
+    else if (const JointFill* joint = jointOf(fill); joint && !isLocal(*joint, place))
+      gatherCoarse(fill, place, &messages, of_coarser_[&fill - fills_.data()][place]);
 }
 
 void Exchange::shareFaces(int variable, Generation set) {

@@ -96,6 +96,22 @@ class Exchange {
   CellValues targetOf(const FilledValues& values, const GhostCopy& copy) const;
   void copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const FilledValues& values, const CellValues& to);
   void fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages);
+  void gatherCoarse(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages, mpi::Bytes& coarse);
+  /// Fills of all variables of a joint, by their indices.
+  struct JointFill {
+    const data::VariableTable::Joint* joint;
+    std::vector<std::size_t> fills;
+  };
+  void findJoints();
+  /// The joint to which a fill belongs; null if its variable is interpolated by itself.
+  const JointFill* jointOf(const BoundGhostFill& fill) const {
+    const int joint = joint_of_[&fill - fills_.data()];
+    return joint < 0 ? nullptr : &joints_[joint];
+  }
+  bool isLocal(const JointFill& joint, std::size_t place) const;
+  void fillTogether(const JointFill& joint, std::size_t place);
+  void fillTogether(const JointFill& together, std::size_t place, const std::vector<mpi::Bytes*>& coarse);
+  void fillTogetherFromElsewhere();
   /// Whether patches exchange only rows of nodes near particles.
   bool isNear(const BoundGhostFill& fill) const {
     return fill.generation == data::Generation::fresh && near_.concern(fill.variable);
@@ -110,7 +126,7 @@ class Exchange {
   void fillCopies(const BoundGhostFill& fill, const grid::Patch& patch, ReceivedMessages* messages);
   bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
   void noteUnresolved();
-  /// Calls `work(fill, patch, index of the patch)` on several threads in parallel.
+  /// Calls `work(patch, index of the patch)` on several threads in parallel.
   template <class Work>
   void forEach(const Work& work);
   void findPlans();
@@ -129,7 +145,10 @@ class Exchange {
   std::span<const BoundGhostFill> fills_;
   std::vector<const GhostPlan*> plans_of_fills_;
   bool has_stopped_ = false;
-  std::set<int> senders_;       ///< ranks whose messages are awaited
+  std::vector<JointFill> joints_;
+  std::vector<int> joint_of_;                        ///< for each fill: index of its joint, or -1
+  std::vector<std::vector<mpi::Bytes>> of_coarser_;  ///< for each fill of a joint, and place: values of coarser cells
+  std::set<int> senders_;                            ///< ranks whose messages are awaited
   std::vector<bool> resolves_;  ///< for each fill: whether it determines which particles are ghosts
 };
 

@@ -1,5 +1,6 @@
 #include "core/tasks/regrid.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <set>
@@ -150,8 +151,13 @@ class MigratedData {
     });
   }
   void packValues(const Piece& piece, Bytes& to) const {
+    std::map<int, Bytes> together;  // values of variables that are interpolated together
+    if (piece.coarser < 0) interpolateTogether(piece, together);
     for (const int number : cells_)
-      pack(label(number), warehouse_.grid().dimension(), piece, variable(number, piece.from), to);
+      if (const auto found = together.find(number); found != together.end())
+        mpi::append(to, found->second.data(), found->second.size());
+      else
+        pack(label(number), warehouse_.grid().dimension(), piece, variable(number, piece.from), to);
     if (!hasParticles(piece)) return;
     for (const int number : particles_)
       forEachRange(piece, piece.from, number,
@@ -218,6 +224,23 @@ class MigratedData {
   const data::Label& label(int number) const { return *warehouse_.table()[number].label; }
   Variable variable(int number, int patch) const { return warehouse_.variable(Generation::old, number, patch); }
   bool hasParticles(const Piece& piece) const { return piece.coarser == 0 && piece.isFinest; }
+  /// Interpolates the variables of joints in the cells of a piece.
+  void interpolateTogether(const Piece& piece, std::map<int, Bytes>& values) const {
+    for (const data::VariableTable::Joint& joint : warehouse_.table().joints()) {
+      std::vector<CellValues> coarse;
+      for (const int number : joint.variables)
+        if (std::find(cells_.begin(), cells_.end(), number) != cells_.end())
+          coarse.push_back({variable(number, piece.from).values, variable(number, piece.from).stored});
+      if (coarse.size() != joint.variables.size()) continue;
+      const auto& fine = prolongTogether(joint, warehouse_.grid().dimension(), coarse, piece.box);
+      for (std::size_t k = 0; k < fine.size(); ++k) {
+        const std::size_t bytes = label(joint.variables[k]).bytes;
+        Bytes& packed = values[joint.variables[k]];
+        packed.resize(piece.box.size() * bytes);
+        copyCells(piece.box, {}, bytes, fine[k], {packed.data(), piece.box});
+      }
+    }
+  }
   template <class Visit>
   void forEachSet(const Piece& piece, int patch, const Visit& visit) const {
     for (int material = 0; hasParticles(piece) && material < materials_; ++material)

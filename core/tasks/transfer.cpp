@@ -272,4 +272,23 @@ void prolong(const Label& label, int dimension, const CellValues& coarse, const 
                  : interpolate<3>(coarse, box, fine, label.components);
 }
 
+const std::vector<CellValues>& prolongTogether(const data::VariableTable::Joint& joint, int dimension,
+                                               const std::vector<CellValues>& coarse, const Box& box) {
+  const Box parents = box.coarsened(dimension), whole = parents.refined(dimension);
+  thread_local std::vector<std::byte> memory;
+  thread_local std::vector<CellValues> fine;
+  std::size_t bytes = 0;
+  for (const Label* label : joint.labels) bytes += whole.size() * label->bytes;
+  if (memory.size() < bytes) memory.resize(bytes);
+  fine.clear();
+  std::byte* next = memory.data();
+  for (std::size_t k = 0; k < joint.labels.size(); ++k) {
+    fine.push_back({next, whole});
+    prolong(*joint.labels[k], dimension, coarse[k], whole, fine[k]);
+    next += whole.size() * joint.labels[k]->bytes;
+  }
+  joint.how->correct(parents, coarse, fine);
+  return fine;
+}
+
 }  // namespace tushar::tasks

@@ -1,15 +1,10 @@
 #pragma once
 
-#include "core/data/label.hpp"
-#include "core/grid/box.hpp"
+#include "core/data/warehouse.hpp"
 
 namespace tushar::tasks {
 
-/// The layout of cell values in memory.
-struct CellValues {
-  std::byte* values;
-  grid::Box stored;
-};
+using data::CellValues;
 
 /// Computes the values of coarse cells from those of the finer cells in them: the mean, in pairs along x, then y, then
 /// z; for integers, the value of the first finer cell. `coarse` contains at least the cells in `box`.
@@ -22,5 +17,10 @@ void restrictTo(const data::Label& label, int dimension, const grid::Box& box, c
 /// 276.
 void prolong(const data::Label& label, int dimension, const CellValues& coarse, const grid::Box& box,
              const CellValues& fine);
+
+/// Computes the fine cells in `box`, and the others in the same coarse cells, for variables that are interpolated
+/// together, in their order. The memory is that of the calling thread until its next call.
+const std::vector<CellValues>& prolongTogether(const data::VariableTable::Joint& joint, int dimension,
+                                               const std::vector<CellValues>& coarse, const grid::Box& box);
 
 }  // namespace tushar::tasks

@@ -271,6 +271,14 @@ class Levels(FolderTest):
             found.add(report["fingerprint"])
         self.assertEqual(len(found), 1)
 
+    def test_a_wave_of_cold_gas_that_runs_into_a_wall_goes_on_beside_coarser_cells(self):
+        """With ghosts of density, momentum and energy each by itself, refluxing left a coarse cell without pressure."""
+        wave = ("Euler/geom_object/density=1+0.1*sin(2*pi*x)", REGRIDDER + "max_levels=2")
+        done = run("ups/euler/noh_levels.ups", *wave)
+        self.assertEqual(done.code, 0, done.err)
+        for key in ("mass", "energy"):
+            self.assertLessEqual(abs(done.report["drift"][key]), 1e-13, key)
+
     def test_a_vortex_that_is_carried_through_a_periodic_box_is_as_good_as_on_fine_cells(self):
         sets = (BASE + "[32,32,1]", REGRIDDER + "max_levels=2", "Time/maxTime=2")
         levels = run("ups/euler/vortex_levels.ups", *sets).report

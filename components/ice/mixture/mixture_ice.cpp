@@ -1,5 +1,6 @@
 #include "components/ice/mixture/mixture_ice.hpp"
 
+#include "components/euler/interpolate_mixture.hpp"
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/ice/diagnose.hpp"
 #include "components/ice/tracers/schedule.hpp"
@@ -150,18 +151,17 @@ void MixtureIce<D>::scheduleHeat(TaskList& tasks) const {
 }
 
 template <int D>
-void MixtureIce<D>::scheduleRefine(TaskList& tasks) const {
-  tasks.acrossMaterials("euler::mendNewMixture", euler::mendNewMixture<D>, gases_, newCells(),
-                        withoutMaterial(all<euler::ChangedState<D>>()), all<euler::ChangedGas>());
-}
-
-template <int D>
 void MixtureIce<D>::scheduleAfterRefluxing(TaskList& tasks) const {
   if (!areBlended())
     tasks.acrossMaterials("ice::closeRefluxed", euler::closeRefluxed<D>, gases_, besideFiner(),
                           modifies(euler::c::gasShare));
   tasks.acrossMaterials("ice::checkRefluxed", euler::checkRefluxedMixture<D>, gases_, besideFiner(),
                         withoutMaterial(all<euler::ChangedState<D>>()), all<euler::ChangedGas>());
+}
+
+template <int D>
+std::vector<std::shared_ptr<const data::JointInterpolation>> MixtureIce<D>::jointInterpolations() const {
+  return {std::make_shared<const euler::MixtureInterpolation<D>>(gases_)};
 }
 
 template <int D>

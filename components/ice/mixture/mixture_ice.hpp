@@ -21,8 +21,8 @@ class MixtureIce : public Component, public reference::GasSolution {
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
-  void scheduleRefine(TaskList& tasks) const override;
   void scheduleAfterRefluxing(TaskList& tasks) const override;
+  std::vector<std::shared_ptr<const data::JointInterpolation>> jointInterpolations() const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   std::string advice() const override { return adviceForGas; }
   bool mayRepeatStep() const override { return true; }
