@@ -41,7 +41,8 @@ def three_gases(laws, velocity):
     """Returns the materials of three gases at one pressure."""
     text = ""
     for k, (name, law, heat, density, temperature) in enumerate(laws):
-        state = f"<density>{density!r}</density><velocity>{velocity}</velocity><temperature>{temperature!r}</temperature>"
+        state = (f"<density>{density!r}</density><velocity>{velocity}</velocity>"
+                 f"<temperature>{temperature!r}</temperature>")
         pieces = "".join(piece(lower, upper, f"{state}<volumeFraction>{shares[k]}</volumeFraction>")
                          for lower, upper, shares in PARTS)
         text += f"<material name='{name}'>{law}<specific_heat>{heat}</specific_heat>{pieces}</material>"
@@ -100,7 +101,8 @@ MIDDLE = "<Level><Box><lower>[0.2,0,0]</lower><upper>[0.6,1,1]</upper><resolutio
 BLOCKS = "<Regridder><min_patch_size>[[8,1,1]]</min_patch_size></Regridder>"
 ADAPTIVE = ("<Regridder type='Tiled'><adaptive>true</adaptive><max_levels>3</max_levels><min_patch_size>[[8,8,1]]"
             "</min_patch_size><min_timestep_interval>4</min_timestep_interval></Regridder><ICE>"
-            "<Refinement_Criteria_Thresholds><Variable name='rho_CC' value='.1'/></Refinement_Criteria_Thresholds></ICE>")
+            "<Refinement_Criteria_Thresholds><Variable name='rho_CC' value='.1'/>"
+            "</Refinement_Criteria_Thresholds></ICE>")
 # f is 1 in the dense gas and in a coarse cell beyond it, beside finer cells.
 SCALAR = ("<Models><Model type='PassiveScalar'><PassiveScalar><scalar name='f'><constants><diffusivity>0</diffusivity>"
           f"</constants><initialization>{piece(-9, 9, '<scalar>0</scalar>')}{piece(0, .2, '<scalar>1</scalar>')}"
@@ -124,7 +126,8 @@ class GasesOnLevels(FolderTest):
 
     def test_three_gases_at_rest_remain_at_rest_and_at_one_pressure(self):
         saves = ("press_CC", "vel_CC", "temp_CC")
-        outputs, report = self.ran(scene_of(three_gases(LIQUIDS, "[0,0,0]"), saves, MIDDLE, BLOCKS), "Time/max_Timesteps=200")
+        scene = scene_of(three_gases(LIQUIDS, "[0,0,0]"), saves, MIDDLE, BLOCKS)
+        outputs, report = self.ran(scene, "Time/max_Timesteps=200")
         self.assertLess(abs(report["drift"]["mass"]), 1e-14)
         for output in outputs:
             np.testing.assert_allclose(output["c.pressure"].values, 1e5, atol=1e-5)  # round-off of the water is 1e-7 Pa
