@@ -17,7 +17,7 @@ void expectUniform(const std::vector<Settings>& gases, double p, const Vec<D>& v
   Transferred<D> at(how.variables());
   std::mt19937 random(3);
   std::uniform_real_distribution<double> noise(0, 0.02);
-  std::size_t cell = 0;
+  std::size_t place = 0;
   grid::forEach<3>(at.cells, [&](const Index3& index) {
     double x = 0;
     for (int d = 0; d < D; ++d) x += 0.03 * (d + 1) * index[d];
@@ -25,14 +25,14 @@ void expectUniform(const std::vector<Settings>& gases, double p, const Vec<D>& v
     MixedGas law;
     for (std::size_t k = 0; k < 3; ++k) {
       const double share = parts[k] / (parts[0] + parts[1] + parts[2]), own = std::pow(10.0, k);
-      at.coarse[3 + 2 * k][cell] = share * own;
-      at.coarse[4 + 2 * k][cell] = share;
-      at.coarse[0][cell] += share * own;
+      at.coarse[3 + 2 * k][place] = share * own;
+      at.coarse[4 + 2 * k][place] = share;
+      at.coarse[0][place] += share * own;
       law.add(share, gases[k].gas.gamma, gases[k].gas.pInfinity);
     }
-    for (int d = 0; d < D; ++d) at.coarse[1][cell * D + d] = v[d] * at.coarse[0][cell];
-    at.coarse[2][cell] = law.energyOf(0, p) + 0.5 * v.squaredNorm() * at.coarse[0][cell];
-    ++cell;
+    for (int d = 0; d < D; ++d) at.coarse[1][place * D + d] = v[d] * at.coarse[0][place];
+    at.coarse[2][place] = law.energyOf(0, p) + 0.5 * v.squaredNorm() * at.coarse[0][place];
+    ++place;
   });
   at.correct(how);
   for (std::size_t cell = 0; cell < at.finer.size(); ++cell) {
