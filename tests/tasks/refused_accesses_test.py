@@ -108,7 +108,7 @@ class RefusedAccesses(unittest.TestCase):
                           complaints(piece(task=f'list.{task}("mark", body, materials, marks())')))
         said = complaints(piece(task='list.perRank("mark", body, marks())'))
         self.assertIn("marks() is allowed only in perPatch", said)
-        self.assertIn("newCells() is allowed only in tasks of a patch",
+        self.assertIn("newCells() and besideFiner() are allowed only in tasks of a patch",
                       complaints(piece(task='list.perRank("refine", body, newCells())')))
         self.assertEqual(complaints(piece(task='list.acrossMaterials("refine", body, materials, newCells())')), "")
 
