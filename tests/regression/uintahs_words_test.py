@@ -167,7 +167,7 @@ class UintahsWords(unittest.TestCase):
         self.assertEqual(checked("<DoMechanics>true</DoMechanics>").code, 0)
         refused = checked("<DoMechanics>false</DoMechanics>")
         self.assertEqual(refused.code, 3)
-        self.assertIn("for heat conduction alone, use the component implicit_heat", refused.err)
+        self.assertIn("false leaves nothing to compute; set DoImplicitHeatConduction to true", refused.err)
 
     def test_materials_may_share_a_name(self):
         with tempfile.TemporaryDirectory() as folder:
