@@ -18,7 +18,7 @@ BLOCKS = (ROOT / "ups/solid/two_material_contact.ups").read_text()
 
 
 def without(text, tag):
-    return re.sub(rf"<{tag}\b.*?</{tag}>", "", text, count=1, flags=re.DOTALL)
+    return re.sub(rf"<{tag}\b.*?</{tag}>", "", text, flags=re.DOTALL)
 
 
 def module(text, tags):
@@ -63,8 +63,7 @@ class PassedOver(unittest.TestCase):
 
     def test_what_is_missing_of_bodies(self):
         self.assert_refused(without(SLAB, "MaterialProperties"), "the section <MaterialProperties> is missing")
-        result = self.check(without(GRAINS, "geom_object"))
-        self.assertIn(result.code, (0, 3), result.err)
+        self.assert_refused(without(GRAINS, "geom_object"), "there are no particles: no geom_object overlaps the grid")
 
     def test_planes_of_slices(self):
         for plane in ("w = 3", "z", "z = x"):

@@ -77,6 +77,8 @@ class Implicit(SceneTest):
                     words += ["--set", override]
                 done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stderr)
+                solves = list(pathlib.Path(folder).glob("*.uda.*/NewtonIterations.dat"))
+                self.assertEqual(len(solves), 1 if moves == "true" else 0, "only bodies that move need Newton's method")
                 lines = next(pathlib.Path(folder).glob("*.uda.*/ThermalEnergy.dat")).read_text().splitlines()
                 (start, before), (end, after) = [map(float, lines[at].split()) for at in (1, -1)]
                 self.assertGreater(end, start)

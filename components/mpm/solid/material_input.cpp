@@ -279,31 +279,9 @@ void noteCommonNames(const MaterialProperties::List& list, const Element& elemen
                        fmt::format("another material is also called '{0}': this one is saved as '{0}.{1}'", name, m));
 }
 
-/// Checks that contacts name existing materials; indices in <materials> that are too large are ignored, as in Uintah.
-/// Notes on materials of a contact that do not exist, and on contacts of less than two materials.
-void noteMissingFollowers(const Element& contact, int count, Diagnostics& diagnostics) {
-  const auto given = contact.child("materials");
-  const auto listed = given ? input::parse<std::vector<int>>(given->text()).value : std::nullopt;
-  if (!listed || count < 2) return;
-  const auto type = contact.child("type");
-  if (type && type->text() == "null") return;
-  std::set<int> taking;
-  if (type && (type->text() == "rigid" || std::string_view(type->text()).starts_with("specified"))) {
-    const auto master = contact.child("master_material");
-    taking.insert(master ? input::parse<int>(master->text()).value.value_or(0) : 0);
-  }
-  std::set<int> missing;
-  for (const int number : *listed) (number >= 0 && number < count ? taking : missing).insert(number);
-  if (!missing.empty())
-    diagnostics.note(
-        *given, fmt::format("there is no material {}{}; materials are numbered from 0 to {}", *missing.begin(),
-                            missing.size() == 1 ? "" : fmt::format(", and {} more", missing.size() - 1), count - 1));
-  if (taking.size() < 2) diagnostics.note(*given, "lists less than two materials, so that this contact has no effect");
-}
-
+/// Checks that the masters of contacts, and the materials that they exclude, exist.
 void checkContacts(const MaterialProperties::List& list, const Element& element, Diagnostics& diagnostics) {
   const int count = static_cast<int>(list.materials.size());
-  for (const Element& tag : element.children("contact")) noteMissingFollowers(tag, count, diagnostics);
   for (const Element& tag : element.children("contact"))
     for (const char* name : {"master_material", "ExcludeMaterial"}) {
       const auto given = tag.child(name);

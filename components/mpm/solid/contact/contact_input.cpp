@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "components/mpm/solid/number_lines.hpp"
 #include "core/input/refuse.hpp"
@@ -260,18 +261,29 @@ Contact::Type typeOf(Kind kind) {
   return slides(kind) ? Contact::Type::friction : Contact::Type::singleVelocity;
 }
 
-/// Adds a note if a contact has a master, but does not list those that follow it.
-void noteFollowers(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
+/// Adds notes on the materials that take part in a contact, of `count` in the scene: on those that do not exist, and if
+/// less than two are left, or if those that follow a master are not listed.
+void noteMaterials(const ContactSection& read, const Element& tag, int count, Diagnostics& diagnostics) {
+  if (count < 2) return;
   if (hasMaster(read.kind) && !read.materials)
     diagnostics.note(
         tag,
         "without <materials>, all materials follow the master; in Uintah, none does: there, bodies move as "
         "if there were no contact");
+  if (!read.materials) return;
+  std::set<int> taking, missing;
+  if (hasMaster(read.kind)) taking.insert(read.master);
+  for (const int number : *read.materials) (number >= 0 && number < count ? taking : missing).insert(number);
+  const Element listed = tag.child("materials").value();
+  if (!missing.empty())
+    diagnostics.note(
+        listed, fmt::format("there is no material {}{}; materials are numbered from 0 to {}", *missing.begin(),
+                            missing.size() == 1 ? "" : fmt::format(", and {} more", missing.size() - 1), count - 1));
+  if (taking.size() < 2) diagnostics.note(listed, "lists less than two materials, so that this contact has no effect");
 }
 
 Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
   Contact contact;
-  noteFollowers(read, tag, diagnostics);
   contact.type = typeOf(read.kind);
   contact.actsTwice = read.steps.value_or(hasMaster(read.kind) ? 1 : 2) == 2;
   contact.excluded = read.excluded.value_or(-1);
@@ -299,7 +311,9 @@ std::vector<Contact> readContacts(const Element& parent, Diagnostics& diagnostic
   std::vector<Contact> contacts;
   for (const Element& tag : parent.children("contact")) {
     const ContactSection read = contactSchema().read(tag, diagnostics);
-    if (read.kind != Kind::none) contacts.push_back(settle(read, tag, diagnostics));
+    if (read.kind == Kind::none) continue;
+    noteMaterials(read, tag, static_cast<int>(parent.children("material").size()), diagnostics);
+    contacts.push_back(settle(read, tag, diagnostics));
   }
   return contacts;
 }
