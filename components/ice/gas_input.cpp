@@ -246,6 +246,12 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   if (cfd.ice.start) takeDisturbance(*cfd.ice.start, materials, root, scene, diagnostics);
   if (properties.exchange) {
     scene.exchange = properties.exchange->coefficients;
+    scene.exchange->convects = properties.exchange->convects;
+    scene.exchange->fluid = properties.exchange->fluid;
+    scene.exchange->solid = properties.exchange->solid;
+    if (solids == 0 && scene.exchange->convects)
+      diagnostics.note(scene.exchange->where, "MaterialProperties/exchange_properties/do_convective_heat_transfer",
+                       "does nothing: there are no bodies");
     scene.exchange->heatByMasses = properties.exchange->model.value_or(CoefficientSection()).heat != "constant";
   }
   if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);

@@ -28,6 +28,8 @@ struct Exchange {
   std::vector<double> momentum;  ///< momentum exchange coefficients [kg/(m³ s)]
   std::vector<double> heat;      ///< heat exchange coefficients [W/(m³ K)]
   bool heatByMasses = false;     ///< whether the coefficients follow from HeatCoefficients::byMasses instead
+  bool convects = false;         ///< whether the surface of a body also heats the fluid in front of it
+  std::optional<int> fluid = {}, solid = {};  ///< the numbers of these materials
 
   HeatCoefficients heatCoefficients() const { return {heatByMasses ? std::vector<double>() : heat, heatByMasses}; }
 };

@@ -300,13 +300,21 @@ const Schema<ExchangeSection>& exchangeSchema() {
   static const Schema<ExchangeSection> schema = [] {
     Schema<ExchangeSection> tags("exchange_properties", "The exchange between materials.");
     tags.requiredSection("exchange_coefficients", &ExchangeSection::coefficients, coefficientsSchema());
-    input::refuseSwitch(tags, "do_convective_heat_transfer", "walls are adiabatic");
-    for (const char* tag : {"convective_fluid", "convective_solid"})
-      tags.ignored(tag, "belongs to do_convective_heat_transfer");
+    tags.value("do_convective_heat_transfer", &ExchangeSection::convects, false, "1",
+               "whether the surface of a body also exchanges heat with the fluid in front of it")
+        .optional("convective_fluid", &ExchangeSection::fluid, "1", "the number of this fluid", input::nonNegative())
+        .optional("convective_solid", &ExchangeSection::solid, "1", "the number of this body", input::nonNegative());
     tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(),
                  "what the coefficients depend on");
     tags.section("Model", &ExchangeSection::exchangeModel, exchangeModelSchema(), "how materials exchange momentum");
-    return tags;
+    return tags.check([](const ExchangeSection& read, const Element& element, Diagnostics& diagnostics) {
+      for (const auto& [name, number] :
+           {std::pair("convective_fluid", read.fluid), std::pair("convective_solid", read.solid)})
+        if (read.convects && !number)
+          diagnostics.error(element, fmt::format("missing tag <{}>: do_convective_heat_transfer is true", name));
+        else if (!read.convects && number)
+          diagnostics.note(*element.child(name), "does nothing: do_convective_heat_transfer is false");
+    });
   }();
   return schema;
 }

@@ -132,6 +132,8 @@ struct ExchangeModelSection {
 
 struct ExchangeSection {
   Exchange coefficients;
+  bool convects = false;                      ///< whether a surface exchanges heat with the fluid in front of it
+  std::optional<int> fluid = {}, solid = {};  ///< the numbers of the materials that do
   std::optional<CoefficientSection> model;
   std::optional<ExchangeModelSection> exchangeModel;
 };

@@ -102,6 +102,16 @@ class BodiesAtNodes {
     if (mass > 0) sum = {sum.before / mass, sum.after / mass};
     return sum;
   }
+  /// The mean of a number of each body over their parts in the face; 0 without mass.
+  double meanAt(const Index<D>& cell, int axis, const std::vector<double>& ofBodies) const {
+    if (records_->size() == 1) return ofBodies.front();
+    double whole = 0, sum = 0;
+    forEachBody(cell, axis, mpm::solid::lane::velocity, [&](std::size_t body, double part, const Content&) {
+      whole += part;
+      sum += part * ofBodies[body];
+    });
+    return whole > 0 ? sum / whole : 0;
+  }
   /// Calls `visit(body, node, share)` for each part of a force at the face; the shares add up to 1.
   template <class Visit>
   void distribute(const Index<D>& cell, int axis, Visit&& visit) const {

@@ -13,8 +13,8 @@ struct BodiesInStep {
   CellView<const Vec<D>> swept, sweptBy;
   std::optional<CellView<const Vec<D>>> leaving = {};  ///< if a side of the grid is open
 
-  static BodiesInStep from(auto& take, bool isViscous, bool opensAtSides) {
-    return {.walls = KnownWalls<D>::from(take, 0, isViscous),
+  static BodiesInStep from(auto& take, bool hasFriction, bool opensAtSides) {
+    return {.walls = KnownWalls<D>::from(take, 0, hasFriction),
             .newFree = take(requiresNew(c::unfilledVolume, 3)),
             .swept = take(requiresNew(c::swept<D>, 2)),
             .sweptBy = take(requiresNew(c::sweptBy<D>, 2)),

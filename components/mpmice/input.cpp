@@ -7,6 +7,7 @@
 #include "components/mpm/solid/constitutive/visco_scram.hpp"
 #include "components/mpm/solid/explicit/input.hpp"
 #include "components/mpm/solid/scene_input.hpp"
+#include "components/mpmice/exchange_input.hpp"
 #include "components/mpmice/mpmice.hpp"
 #include "components/mpmice/open_sides.hpp"
 #include "components/mpmice/wave_speeds.hpp"
@@ -18,27 +19,6 @@ using input::Diagnostics;
 using input::Element;
 
 namespace {
-
-/// Calls a function for each pair of a body and a gas; `pairs` is a matrix of Uintah, which contains all pairs row by
-/// row.
-template <class Visit>
-void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases, Visit&& visit) {
-  std::size_t at = 0;
-  for (int row = 0; row < solids; ++row)
-    for (int column = row + 1; column < solids + gases; ++column, ++at)
-      if (column >= solids) visit(row, pairs[at]);
-}
-
-/// Whether a list has one number for each pair of materials; reports an error otherwise.
-bool hasAllPairs(const std::vector<double>& given, const char* name, int materials, const Element& tag,
-                 Diagnostics& diagnostics) {
-  const std::size_t pairs = static_cast<std::size_t>(materials) * (materials - 1) / 2;
-  if (given.size() == pairs) return true;
-  diagnostics.error(
-      tag.child(name).value_or(tag),
-      fmt::format("found {} numbers, expected {}: one for each pair of {} materials", given.size(), pairs, materials));
-  return false;
-}
 
 /// The extent of a grid, and the widths of its cells [m].
 struct GridWidths {
@@ -85,51 +65,6 @@ void noteThinBodies(const std::vector<mpm::solid::Material>& materials, const El
   }
 }
 
-/// The largest initial rho c / h [kg/(m^3 s)] of any gas in any cell, a measure of how fast sound crosses the cell;
-/// infinite if it is not known. An exchange of momentum that is faster stops the gas within a cell, as a wall does.
-double fastestCrossing(const std::vector<euler::Settings>& gases, const Element& root) {
-  const auto grid = gridOf(root);
-  const std::optional<double> width = grid ? std::optional(grid->widths.minCoeff()) : std::nullopt;
-  double greatest = width && *width > 0 ? 0 : std::numeric_limits<double>::infinity();
-  for (const euler::Settings& gas : gases)
-    for (const euler::GasObject& object : gas.objects) {
-      if (!object.density.isConstant() || !object.temperature || !object.temperature->isConstant())
-        return std::numeric_limits<double>::infinity();
-      const double density = object.density(Vec3::Zero()), temperature = (*object.temperature)(Vec3::Zero());
-      const double squared = gas.gas.soundSpeedSquared(density, gas.gas.lastAt(density, temperature));
-      if (!(squared > 0)) return std::numeric_limits<double>::infinity();
-      greatest = std::max(greatest, density * std::sqrt(squared) / width.value_or(1));
-    }
-  return greatest > 0 ? greatest : std::numeric_limits<double>::infinity();
-}
-
-/// Checks the exchange of momentum. Between gas and bodies, only walls are available; between bodies, only their
-/// contacts.
-void checkMomentum(const ice::GasScene& scene, int solids, bool areRigid, const Element& root, const Element& tag,
-                   Diagnostics& diagnostics) {
-  const std::vector<double>& momentum = scene.exchange->momentum;
-  const std::vector<euler::Settings> gases =
-      scene.mixture.empty() ? std::vector<euler::Settings>{scene.gas} : scene.mixture;
-  const int count = static_cast<int>(gases.size());
-  const auto given = tag.child("momentum");
-  if (!given || !input::parse<std::vector<double>>(given->text()).value) return;  // absent, or already refused
-  if (!hasAllPairs(momentum, "momentum", solids + count, tag, diagnostics)) return;
-  const double walls = std::min(1e9, 10 * fastestCrossing(gases, root));
-  forEachPairWithGas(momentum, solids, count, [&](int body, double k) {
-    if (k >= walls || (areRigid && k == 0)) return;
-    diagnostics.error(tag.child("momentum").value_or(tag),
-                      fmt::format("{:g} between body {} and the gas is not available: bodies are walls to the gas; "
-                                  "give {:g} or more, which stops the gas within a cell",
-                                  k, body, walls));
-  });
-  if (solids > 1)
-    diagnostics.note(tag.child("momentum").value_or(tag),
-                     root.child("MaterialProperties")->child("MPM")->child("contact")
-                         ? "does nothing between bodies: they interact through their <contact>"
-                         : "does nothing between bodies: they interact through their <contact>, and pass through each "
-                           "other, as there is none");
-}
-
 /// Tells of contacts in which bodies stay together under compression: in a gas, they may part.
 void noteContacts(const Element& root, Diagnostics& diagnostics) {
   for (const Element& contact : root.child("MaterialProperties")->child("MPM")->children("contact")) {
@@ -140,19 +75,6 @@ void noteContacts(const Element& root, Diagnostics& diagnostics) {
                                           "pressure compresses surfaces that do not touch",
                                           kind));
   }
-}
-
-/// The coefficients of heat exchange; none if the scene does not give one for each pair, or if a body has no specific
-/// heat.
-ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gases, const Element& root,
-                             const Element& tag, Diagnostics& diagnostics) {
-  ice::HeatCoefficients heat = exchange.heatCoefficients();
-  if (!heat.pairs.empty() && !hasAllPairs(heat.pairs, "heat", solids + gases, tag, diagnostics)) return {};
-  if (!heat.act()) return {};
-  for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))
-    if (!material.child("specific_heat"))
-      diagnostics.error(material, "missing tag <specific_heat>: the body exchanges heat");
-  return heat;
 }
 
 /// Refuses settings that would give a burning surface a wrong area or pressure.
@@ -343,12 +265,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
                          .soundSpeedKnob = scene.implicit->soundSpeedKnob,
                          .solver = scene.implicit->solver};
   if (!settings.implicit) ice::letPressureRise(scene, settings.gas, settings.gases);
-  if (scene.exchange) {
-    const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
-    const int gases = std::max<int>(1, static_cast<int>(scene.mixture.size()));
-    checkMomentum(scene, solids, areRigid, root, tag, diagnostics);
-    settings.heat = heatOf(*scene.exchange, solids, gases, root, tag, diagnostics);
-  }
+  if (scene.exchange) readExchange(scene, solids, root, settings, diagnostics);
   settings.burning = burningOf(scene, areRigid, root, diagnostics);
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);

@@ -119,18 +119,16 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials,
                           withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
                           all<BodyAtFaces<D>>(1, materials.size() > 1, settings_.endsAtPlane),
                           withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
-  if (isViscous())
+  if (hasFriction())
     tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
                           all<BodyAtFaces<D>>(1, materials.size() > 1, settings_.endsAtPlane),
                           withoutMaterial(computes(c::wallFriction<D>)));
-  tasks.acrossMaterials(
-      "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
-      withoutMaterial(
-          gasIn(readsOld, {.state = isViscous() && settings_.diffusion.varies() ? 2 : 0, .mass = 3, .room = 3})),
-      withoutMaterial(all<KnownWalls<D>>(2, isViscous())),
-      all<BodyAtFaces<D>>(isViscous() ? 3 : 2, materials.size() > 1, settings_.endsAtPlane),
-      computes(total::forceOnBodies), computes(g::surroundingForce<D>));
+  tasks.acrossMaterials("mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
+                        withoutMaterial(gasIn(readsOld, {.state = variesFriction() ? 2 : 0, .mass = 3, .room = 3})),
+                        withoutMaterial(all<KnownWalls<D>>(2, hasFriction())),
+                        all<BodyAtFaces<D>>(hasFriction() ? 3 : 2, materials.size() > 1, settings_.endsAtPlane),
+                        computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
 /// Adds the tasks for the pressure at the end of the step, including the pressure on walls.
@@ -177,7 +175,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (settings_.implicit)
     tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_), startTime(),
                           requiresOld(delT), withoutMaterial(all<GasInStep<D>>(settings_.endsAtPlane)),
-                          withoutMaterial(all<BodiesInStep<D>>(isViscous(), settings_.opensAtSides)),
+                          withoutMaterial(all<BodiesInStep<D>>(hasFriction(), settings_.opensAtSides)),
                           all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
                           withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)),
                           computes(total::powerOnBodies));
@@ -185,7 +183,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
     tasks.acrossMaterials(
         "mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials, with(settings_),
         startTime(), requiresOld(delT), withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
-        withoutMaterial(all<BodiesInStep<D>>(isViscous(), settings_.opensAtSides)),
+        withoutMaterial(all<BodiesInStep<D>>(hasFriction(), settings_.opensAtSides)),
         all<BodyAtFaces<D>>(2, materials.size() > 1, settings_.endsAtPlane),
         withoutMaterial(all<OutcomeOfStep<D>>(settings_.gases.size(), keepsMasses)), computes(total::powerOnBodies));
   carryScalars(tasks);
@@ -260,8 +258,9 @@ void GasAround<D>::scheduleExchange(TaskList& tasks, const Materials& materials)
   tasks.perMaterial("mpmice::measureHeatOfBody", measureHeatOfBody<D>, materials, all<WarmParticles<D>>(burns()),
                     all<NewWarmBody>());
   tasks.acrossMaterials("mpmice::exchangeHeatAtFaces", exchangeHeatAtFaces<D, Most>, materials, with(settings_),
-                        requiresOld(delT), withoutMaterial(all<WarmGas<D, const double>>(gases, 1)), all<WarmBody>(1),
-                        all<HeatOfBodyAtFaces>(), withoutMaterial(all<HeatOfGasAtFaces>(gases)));
+                        requiresOld(delT),
+                        withoutMaterial(all<WarmGas<D, const double>>(gases, 1, settings_.convection ? 2 : 1)),
+                        all<WarmBody>(1), all<HeatOfBodyAtFaces>(), withoutMaterial(all<HeatOfGasAtFaces>(gases)));
   tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D, Most>, materials, with(settings_), startTime(),
                         requiresOld(delT), withoutMaterial(all<WarmGas<D>>(gases)),
                         withoutMaterial(all<GasAtFaces>(gases)), all<WarmingBody>(), withoutMaterial(offers(c::heat)));

@@ -53,7 +53,11 @@ class GasAround : public mpm::solid::Surroundings {
   template <int Most>
   void scheduleExchange(TaskList& tasks, const Materials& materials) const;
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
-  bool isViscous() const { return settings_.diffusion.isViscous(); }
+  bool hasFriction() const { return settings_.hasFriction(); }
+  /// Whether the friction depends on the state of a cell.
+  bool variesFriction() const {
+    return hasFriction() && (settings_.diffusion.varies() || (settings_.drag.acts() && !settings_.gases.empty()));
+  }
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
   bool hasCracks() const { return burns() && settings_.burning->model.ddt(); }

@@ -42,6 +42,23 @@ struct GasDiffusion {
   bool acts() const { return isViscous() || conducts(); }
 };
 
+/// Coefficients by which bodies drag gas along, other than by its viscosity.
+struct Drag {
+  std::vector<std::vector<double>> ofGases = {};  ///< for each gas, the coefficient of each body [kg/(m³ s)]
+
+  bool acts() const {
+    return std::any_of(ofGases.begin(), ofGases.end(), [](const std::vector<double>& ofBodies) {
+      return std::any_of(ofBodies.begin(), ofBodies.end(), [](double k) { return k > 0; });
+    });
+  }
+};
+
+/// A body whose surface also exchanges heat with a gas in front of it, and this gas (see HeatAtFaces).
+struct Convection {
+  Eigen::Index body = 0;  ///< index of the body among the bodies
+  Eigen::Index gas = 0;   ///< index of the gas among several gases
+};
+
 /// The gas around bodies, and its interaction with them.
 struct Settings {
   euler::Settings gas;
@@ -53,6 +70,8 @@ struct Settings {
   bool endsAtPlane = false;      ///< whether an upper side of the grid is a symmetry plane
   bool opensAtSides = false;     ///< whether bodies may leave the grid through open sides
   GasDiffusion diffusion = {};
+  Drag drag = {};
+  std::optional<Convection> convection = {};
   std::optional<ice::IceSettings> implicit = {};    ///< settings of implicit steps, if sound does not limit the steps
   ice::Heating heating = {};                        ///< heating of the gases
   std::vector<euler::Settings> gases = {};          ///< each gas, if several share cells; the first is `gas`
@@ -61,6 +80,8 @@ struct Settings {
   std::vector<ice::ScalarSettings> scalars = {};    ///< scalars that are transported with the gas
   std::optional<ice::TracerSettings> tracers = {};  ///< particles that move with a gas
 
+  /// Whether walls slow the gas that flows along them.
+  bool hasFriction() const { return diffusion.isViscous() || drag.acts(); }
   /// Whether gas flows into space that bodies leave empty: ideal gases in explicit steps, which expand without limit.
   bool fillsVacuum() const {
     const auto isIdeal = [](const euler::Settings& one) { return !one.gas.law && one.gas.pInfinity == 0; };

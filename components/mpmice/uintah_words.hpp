@@ -20,7 +20,7 @@ inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"
                                                  {"p.velocity+", "p.velocity"},
                                                  {"p.temperature+", "p.temperature"}};
 
-/// Variables of Uintah's MPMICE and its burn models that no task of Tushar computes.
+/// Variables of Uintah's MPMICE and its burn models that no task of Tushar computes, or only if a body burns.
 inline const std::vector<std::string> uintahsLabels{"Tdot",
                                                     "p.pressure",
                                                     "vel_CCTransposed",
@@ -41,6 +41,8 @@ inline const std::vector<std::string> uintahsLabels{"Tdot",
                                                     "SteadyBurn.numPPC",
                                                     "SteadyBurn.BurningCell",
                                                     "UnsteadyBurn.BurningCell",
+                                                    "BurntMass",
+                                                    "ReactionHeat",
                                                     "totalMassExchanged",
                                                     "totalIntEngExchanged"};
 

@@ -15,15 +15,16 @@ namespace tushar::mpmice {
 inline double layerOf(double free) { return free < smallFreeVolume ? 1 + free : free; }
 
 /// The drag of the walls of a cell on its gas, for each face, per cell volume: the viscosity times the area of the
-/// wall, divided by the distance from the wall to the middle of the gas. The area is measured along the surface of the
-/// body.
+/// wall, divided by the distance from the wall to the middle of the gas, and a coefficient of momentum exchange times
+/// a quarter of the part of the face that is wall. The area is measured along the surface of the body.
 template <int D>
 class CellFriction {
  public:
   /// `massAt(face, axis)` is the mass of the bodies at the face; a wall without mass causes no drag.
-  template <class MassAt>
+  /// `coefficientAt(face, axis)` is their coefficient of momentum exchange with the gas of the cell [kg/(m³ s)].
+  template <class MassAt, class CoefficientAt>
   CellFriction(const Level& level, const FreeSpace<D>& space, const Index<D>& cell, double free, double viscosity,
-               MassAt&& massAt)
+               MassAt&& massAt, CoefficientAt&& coefficientAt)
       : normal_(space.normal(cell)) {
     std::array<OpenFaces, D> all;
     for (int a = 0; a < D; ++a) all[a] = space.faces(cell, a);
@@ -34,8 +35,10 @@ class CellFriction {
       const double perWidth = level.inverseSpacing(a);
       for (int side = 0; side < 2; ++side) {
         const double wall = faces.wall(side);
-        if (!(wall > 0) || !(massAt(side == 0 ? cell : cell + Index<D>::unit(a), a) > 0)) continue;
-        drag_[a][side] = viscosity * wall * along * perWidth * perWidth / (0.5 * layerOf(free));
+        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(a);
+        if (!(wall > 0) || !(massAt(face, a) > 0)) continue;
+        drag_[a][side] = viscosity * wall * along * perWidth * perWidth / (0.5 * layerOf(free)) +
+                         0.25 * coefficientAt(face, a) * wall * along;
         all_ += drag_[a][side];
       }
     }
@@ -65,10 +68,15 @@ template <int D>
 CellFriction<D> frictionWeights(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                                 const FreeSpace<D>& space, const BodiesAtNodes<D>& bodies, const Index<D>& cell) {
   const double viscosity = viscosityAtWalls<D>(level, settings, cells, cell);
-  return {level,     space,
-          cell,      cells.free[cell],
-          viscosity, [&](const Index<D>& face, int axis) {
-            return bodies.massAt(face, axis); }};
+  const auto massAt = [&](const Index<D>& face, int axis) { return bodies.massAt(face, axis); };
+  const auto coefficientAt = [&](const Index<D>& face, int axis) {
+    double sum = 0;
+    for (std::size_t k = 0; k < settings.drag.ofGases.size(); ++k)
+      sum += (settings.gases.empty() ? 1 : cells.held.shares[k][cell]) *
+             bodies.meanAt(face, axis, settings.drag.ofGases[k]);
+    return sum;
+  };
+  return {level, space, cell, cells.free[cell], viscosity, massAt, coefficientAt};
 }
 
 /// Computes the friction force on the gas of a cell in a step, per cell volume [N/m³].

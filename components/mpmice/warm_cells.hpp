@@ -27,15 +27,15 @@ struct WarmGas {
   std::vector<CellView<const double>> masses;
   std::vector<CellView<T>> shares;
 
-  /// `ghost` is 0 unless T is const.
-  static WarmGas from(auto& take, std::size_t gases, int ghost = 0) {
+  /// `ghost` is 0 unless T is const; `room` is the number of ghost cells of the free volume, if that is more.
+  static WarmGas from(auto& take, std::size_t gases, int ghost = 0, int room = 0) {
     const auto changed = [&](const auto& label) {
       if constexpr (std::is_const_v<T>)
         return requiresNew(label, ghost);
       else
         return modifies(label);
     };
-    return {.free = take(requiresNew(c::freeVolume, ghost)),
+    return {.free = take(requiresNew(c::freeVolume, std::max(ghost, room))),
             .density = take(requiresNew(c::density, ghost)),
             .momentum = take(requiresNew(c::momentum<D>, ghost)),
             .totalEnergy = take(changed(c::totalEnergy)),

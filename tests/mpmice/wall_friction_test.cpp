@@ -18,10 +18,16 @@ struct Plate {
       if (cell[1] == 3) gas.coverage.cells()[cell][0] = 1 - room;
     });
   }
-  CellFriction<2> of(const Index<2>& cell, double mass = 1) const {
+  CellFriction<2> of(const Index<2>& cell, double mass = 1, double viscosity = 0.5, double coefficient = 0) const {
     const GasInCells<2> cells = gas.gas();
     const FreeSpace<2> space(grid.level(), {}, cells);
-    return {grid.level(), space, cell, cells.free[cell], 0.5, [&](const Index<2>&, int) { return mass; }};
+    return {grid.level(),
+            space,
+            cell,
+            cells.free[cell],
+            viscosity,
+            [&](const Index<2>&, int) { return mass; },
+            [&](const Index<2>&, int) { return coefficient; }};
   }
 
   Grid grid;
@@ -38,6 +44,11 @@ TEST(CellFriction, IsViscosityOverTheDistanceFromTheWall) {
   EXPECT_NEAR(narrow.of({2, 3}).all(), 0.5 / (h * 0.5 * 1.3 * h), 1e-11) << "with the cell that shares its gas";
   EXPECT_EQ(full.of({2, 3}).share(1, 1), 1);
   EXPECT_EQ(full.of({2, 2}).all(), 0) << "away from the wall";
+}
+
+TEST(CellFriction, IsAQuarterOfACellTimesACoefficient) {
+  for (const double room : {1.0, 0.6, 0.3}) EXPECT_NEAR(Plate(room).of({2, 3}, 1, 0, 8).all(), 2, 1e-13) << room;
+  EXPECT_EQ(Plate(1).of({2, 3}, 0, 0, 8).all(), 0) << "without a mass to take it";
 }
 
 TEST(CellFriction, ActsAlongTheWall) {

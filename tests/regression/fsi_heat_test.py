@@ -11,6 +11,7 @@ from fsi_images_test import Image, warm_discs
 from gas_and_bodies import changed
 from same_bits import SameBitsTest
 from solids import SceneTest, globals_of, last_state
+from sus import run
 
 PLANE = '<BCType id="all" label="Symmetric" var="symmetry"/>'
 WALL = """
@@ -41,6 +42,15 @@ def line(bodies, heat, *changes):
                        f'<save label="{name}"/>' for name in ("GasEnergy", "TotalEnergy", "ThermalEnergy"))), *changes)
 
 
+CLOSED, SWITCH = "</exchange_coefficients>", "<do_convective_heat_transfer>true</do_convective_heat_transfer>"
+
+
+def convection(fluid, solid):
+    """The change by which the surface of a body also exchanges heat with the fluid in front of it."""
+    return CLOSED, (f"{CLOSED}{SWITCH}<convective_fluid>{fluid}</convective_fluid>"
+                    f"<convective_solid>{solid}</convective_solid>")
+
+
 class Coefficients(SceneTest):
     def heat_from(self, bodies, heat=(1,), *changes):
         """Returns the heat that bodies give to the gas, and the relative change of all energy."""
@@ -66,6 +76,31 @@ class Coefficients(SceneTest):
             gained = sum(one - 1 for one in found) / len(found) * 1000 * (4 + shift) * .05
             self.assertLess(abs(gained / (1 / 4 * .05 * .05) - 1), .01, shift)
 
+    def test_of_convection_add_another_quarter_of_a_cell(self):
+        exact = 2 * (1 / 4 + 1 / 4) * .05 * (2 - 1) * .05
+        for shift in (0, .25, .5, .75):
+            heat, drift = self.heat_from([slab(6 + shift, 12 + shift)], [1], convection(1, 0))
+            self.assertLess(abs(heat / exact - 1), .01, shift)
+            self.assertLess(drift, 1e-14, shift)
+        heat, drift = self.heat_from([slab(6.25, 12.25)], [1e15], convection(1, 0))
+        self.assertLess(drift, 1e-14)
+
+    def test_of_convection_act_on_one_body(self):
+        """Two bodies in the gas: the second one convects."""
+        both = [slab(2, 5.5), slab(12, 15.5)]
+        alone = self.heat_from(both, [0, 1, 1])[0]
+        self.assertLess(abs(self.heat_from(both, [0, 1, 1], convection(2, 1))[0] / alone - 1.5), .02)
+
+    def test_of_convection_need_a_body_and_a_gas(self):
+        for fluid, solid, message in ((0, 0, "found 0, expected a gas: 1 to 1"),
+                                      (1, 1, "found 1, expected a body: 0 to 0")):
+            done = run(self.scene(line([slab(6, 12)], [1], convection(fluid, solid))), options=("--check",))
+            self.assertEqual(done.code, 3)
+            self.assertIn(message, done.err)
+        done = run(self.scene(line([slab(6, 12)], [1], (CLOSED, f"{CLOSED}{SWITCH}"))), options=("--check",))
+        self.assertIn("missing tag <convective_fluid>: do_convective_heat_transfer is true", done.err)
+        self.assertIn("missing tag <convective_solid>: do_convective_heat_transfer is true", done.err)
+
     def test_conserve_heat(self):
         for heat in (1, 100, 1e4, 1e15):
             for shift in (0, .25, .5):
@@ -82,6 +117,10 @@ class Coefficients(SceneTest):
 class Bits(SceneTest, SameBitsTest):
     def test_are_the_same_on_any_layout(self):
         self.assert_same(self.scene(warm_discs(Image())), 30, ("[1,1,1]", "[4,3,1]", "[8,4,1]"), ranks=3)
+
+    def test_of_convection_are_the_same_on_any_layout(self):
+        scene = self.scene(changed(warm_discs(Image()), convection(2, 0)))
+        self.assert_same(scene, 30, ("[1,1,1]", "[4,3,1]", "[8,4,1]"), ranks=3)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,11 @@ namespace tushar::mpmice {
 /// they shared 4 (a - 1/2)² (b - 1/2)² of a cell, if both are greater than 1/2. Where the surface of a body divides a
 /// cell into s and 1 - s, gas and body share s (1 - s) of it, and the neighbours add (s - 1/2)². So a plane surface
 /// normal to an axis always has 1/4 of a cell. The same applies to two bodies.
+///
+/// With Uintah's `do_convective_heat_transfer`, a body that fills the fraction b of a cell and a gas that fills a of a
+/// neighbouring one also exchange heat as if they shared a b |n| / 4 of a cell, where n is the component of the normal
+/// of the body along the axis. For a plane surface, this adds another 1/4 of a cell. In Uintah, the surface of the body
+/// exchanges heat with the gas of a cell in front of it.
 template <int D, int Most, class Gas>
 class HeatAtFaces {
  public:
@@ -50,11 +55,35 @@ class HeatAtFaces {
   bool mayPass(const Index<D>& cell, int axis, int side) const {
     const Index<D> next = beside(cell, axis, side);
     if (!isInGrid(next, axis)) return false;
+    if (settings_.convection && (meets(cell, next) || meets(next, cell))) return true;
     const bool isFilled = gas_.free[cell] < 0.5, isNextFilled = gas_.free[next] < 0.5;
     if (isFilled != isNextFilled) return true;
     if (!isFilled || cells_.bodies() == 1) return false;
     const Eigen::Index own = cells_.bodyThatFills(cell), other = cells_.bodyThatFills(next);
     return own >= 0 && other >= 0 && own != other;
+  }
+  /// Whether there are bodies in a cell and gas in the next one.
+  bool meets(const Index<D>& cell, const Index<D>& next) const { return gas_.free[cell] < 1 && gas_.free[next] > 0; }
+  /// What `a` in a cell and `b` in a neighbouring cell share of a cell for convection; 0 unless they are the body and
+  /// the gas that convect.
+  double convectedBy(Eigen::Index a, Eigen::Index b, const ice::WarmThings<Most>& own,
+                     const ice::WarmThings<Most>& other, const Index<D>& cell, const Index<D>& next, int axis) const {
+    if (!settings_.convection) return 0;
+    const Eigen::Index body = settings_.convection->body, gas = cells_.bodies() + settings_.convection->gas;
+    if (a == body && b == gas) return 0.25 * own.volume[a] * other.volume[b] * normalAlong(cell, axis);
+    if (a == gas && b == body) return 0.25 * (other.volume[b] * own.volume[a]) * normalAlong(next, axis);
+    return 0;
+  }
+  /// The component along an axis of the unit vector along the gradient of the free volume; 1 if there is no gradient.
+  double normalAlong(const Index<D>& cell, int axis) const {
+    Vec<D> gradient = Vec<D>::Zero();
+    for (int d = 0; d < D; ++d) {
+      const Index<D> below = beside(cell, d, 0), above = beside(cell, d, 1);
+      gradient[d] = gas_.free[isInGrid(above, d) ? above : cell] - gas_.free[isInGrid(below, d) ? below : cell];
+      gradient[d] *= level_.inverseSpacing(d);
+    }
+    const double length = gradient.norm();
+    return length > 0 ? std::abs(gradient[axis]) / length : 1;
   }
   Vector through(const Index<D>& cell, const ice::WarmThings<Most>& own, int axis, int side) const {
     Vector heat = Vector::Zero(own.capacity.size());
@@ -74,7 +103,8 @@ class HeatAtFaces {
           share = square(ofNextGas) * (partOf(own, a, 1 - gas_.free[cell]) * partOf(other, b, gas_.free[next]));
         else if (b < bodies)
           share = square(ofGas) * (partOf(own, a, gas_.free[cell]) * partOf(other, b, 1 - gas_.free[next]));
-        if (share > 0) heat[a] += flow(own, a, other, b, 4 * share);
+        share = 4 * share + convectedBy(a, b, own, other, cell, next, axis);
+        if (share > 0) heat[a] += flow(own, a, other, b, share);
       }
     return heat;
   }

@@ -133,16 +133,16 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
                       });
 }
 
-/// Views of the pressures of computeWallPressure and, if the gas is viscous, of the friction.
+/// Views of the pressures of computeWallPressure and, if there is friction, of it.
 template <int D>
 struct KnownWalls {
   CellView<const Vec<D>> below, above;
   std::optional<CellView<const Vec<D>>> friction = {};
 
-  static KnownWalls from(auto& take, int ghost, bool isViscous) {
+  static KnownWalls from(auto& take, int ghost, bool hasFriction) {
     return {.below = take(requiresNew(c::wallPressure<D>[0], ghost)),
             .above = take(requiresNew(c::wallPressure<D>[1], ghost)),
-            .friction = take(when(isViscous, requiresNew(c::wallFriction<D>, ghost)))};
+            .friction = take(when(hasFriction, requiresNew(c::wallFriction<D>, ghost)))};
   }
 };
 

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Momentum by exchange coefficients between bodies and gases: the same wherever in a cell a surface is, conserved,
+never past a common velocity, and with the same bits on any layout."""
+import math
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import gas_and_bodies as fsi
+from gas_and_bodies import changed
+from same_bits import SameBitsTest
+from solids import SceneTest, globals_of, last_state
+from sus import run
+
+DISC = changed(fsi.scene("carried_disc").read_text(), fsi.LIGHT)
+RUNS_PAST = changed(DISC, (fsi.RESTING, fsi.RESTING.replace("[1,0.618,0]", "[0.2,-0.3,0]")),
+                    ('<save label="GasEnergy"/>',
+                     '<save label="TotalMomentum"/><save label="GasImpulseOnBodies"/><save label="GasEnergy"/>'
+                     '<save label="GasWorkOnBodies"/>'))
+HEIGHT, WIDTH = .5, 1 / 50
+
+
+def plate(k, shift, *changes):
+    """A heavy plate below gas of density 1 that slides along it by 1 m/s; its surface is `shift` cells above a face."""
+    cut = DISC.index("<cylinder"), DISC.index("</cylinder>") + len("</cylinder>")
+    box = f'<box label="plate"><min>[0,0,0]</min><max>[1,{HEIGHT + shift * WIDTH},1]</max></box>'
+    text = DISC[:cut[0]] + box + DISC[cut[1]:]
+    light = text.index("<geom_object>\n          <box label=\"light\">"), text.rindex("</geom_object>")
+    text = text[:light[0]] + text[light[1] + len("</geom_object>"):]
+    return changed(text, ("<periodic>[1,1,0]<", "<periodic>[1,0,0]<"), ("[1,0.618,0]</velocity>\n        </geom_object>"
+                   "\n      </material>\n    </MPM>", "[0,0,0]</velocity>\n        </geom_object>\n      </material>\n"
+                   "    </MPM>"), ("<velocity>[1,0.618,0]<", "<velocity>[1,0,0]<"),
+                   ("<BoundaryConditions>", "<BoundaryConditions>" + "".join(
+                       f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
+                       for side in ("y-", "y+"))),
+                   ("<momentum>[1e15]", f"<momentum>[{k:g}]"), ("<density>10<", "<density>1e6<"),
+                   ('<save label="GasEnergy"/>', '<save label="GasImpulseOnBodies"/>'), *changes)
+
+
+class Drag(SceneTest):
+    def impulse(self, k, shift, time):
+        sets = (f"Time/maxTime={time}", "SimulationComponent/@type=rmpmice", "Grid/Level/Box/resolution=[8,50,1]")
+        return globals_of(self.scene(plate(k, shift)), "GasImpulseOnBodies", sets=sets)["GasImpulseOnBodies"][-1][1]
+
+    def test_is_a_quarter_of_a_cell_times_the_coefficient(self):
+        """For a plane, the force per area is K h / 4 times the velocity, wherever in a cell the surface is."""
+        k, time = 1, .01
+        for shift in (0, .25, .5, .75):
+            exact = k * WIDTH / 4 * 1 * time * (1 * .02)  # of an area of 1 m x .02 m
+            self.assertLess(abs(self.impulse(k, shift, time) / exact - 1), .01, shift)
+
+    def test_takes_gas_to_the_velocity_of_walls_but_not_past_it(self):
+        """Slow gas in the row beside the plate decays by exp(-K t / 4 rho); for a large K it stops."""
+        for k, most in ((10, None), (1e8, 1e-12)):
+            sets = ("SimulationComponent/@type=rmpmice", "Time/maxTime=0.4", "Grid/Level/Box/resolution=[8,50,1]")
+            slow = self.scene(plate(k, 0, ("<velocity>[1,0,0]<", "<velocity>[0.01,0,0]<")))
+            state = last_state(slow, "c.velocity", "c.freeVolume", sets=sets)
+            row = [v for v, y in zip(state["c.velocity.x [m/s]"], state["y [m]"]) if abs(y - HEIGHT - WIDTH / 2) < 1e-9]
+            self.assertGreaterEqual(min(row), 0)
+            if most:
+                self.assertLess(max(row), most)
+            else:
+                self.assertLess(abs(max(row) / (.01 * math.exp(-k * .4 / 4)) - 1), .02, row)
+
+    def test_conserves_momentum_and_energy(self):
+        for k in (5, 1e3, 1e8):
+            done = globals_of(self.scene(RUNS_PAST), "TotalMomentum", "GasImpulseOnBodies", "GasEnergy",
+                              "GasWorkOnBodies",
+                              sets=(f"MaterialProperties/exchange_properties/exchange_coefficients/momentum=[{k}]",
+                                    "Time/maxTime=0.1", *fsi.resolution("carried_disc", 25)))
+            momenta = [row[1:4] for row in done["TotalMomentum"]]
+            for axis in (0, 1):
+                self.assertLess(max(abs(one[axis] - momenta[0][axis]) for one in momenta), 1e-15, k)
+            sums = [e[1] + w[1] for e, w in zip(done["GasEnergy"], done["GasWorkOnBodies"])]
+            self.assertLess(max(abs(one / sums[0] - 1) for one in sums), 1e-13, k)
+            self.assertGreater(abs(done["GasImpulseOnBodies"][-1][1]), 1e-6)
+
+    def test_is_noted(self):
+        for k, note in ((7, "that drag it along, with 7 h / 4 times the relative velocity per area"),
+                        (0, "along which it slips, all the same")):
+            note = f"{k}: body 0 consists of walls to the gas, {note}"
+            self.assertIn(note, run(self.scene(plate(k, 0)), "Time/max_Timesteps=1", options=()).err)
+        self.assertNotIn("walls to the gas", run(self.scene(plate(1e9, 0)), "Time/max_Timesteps=1", options=()).err)
+
+
+class SameBits(SceneTest, SameBitsTest):
+    LAYOUTS = ("[1,1,1]", "[5,3,1]", "[25,4,1]")
+    SETS = tuple(fsi.resolution("carried_disc", 25))
+
+    def test_of_one_gas(self):
+        scene = self.scene(changed(RUNS_PAST, ("[1e15]", "[30]")))
+        self.assert_same(scene, 30, self.LAYOUTS, *self.SETS, ranks=3)
+
+    def test_of_two_gases(self):
+        text = fsi.scene("contact_of_gases").read_text()
+        self.assert_same(self.scene(changed(text, ("[1e15, 1e15, 1e15]", "[30,500,1e15]"))), 40,
+                         ("[1,1,1]", "[7,1,1]", "[50,1,1]"), ranks=3)
+
+
+if __name__ == "__main__":
+    unittest.main()
