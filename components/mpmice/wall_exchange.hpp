@@ -55,7 +55,7 @@ class WallExchange {
       const double share = cells_.held.shares[k][cell];
       double& volume = held.shares[k][cell];
       volume = room < narrowFreeVolume ? share * room + (volume - share) : volume + share * (room - 1);
-      if (room < leastFreeVolume) volume = share * std::max(room, hardlyRoom);
+      if (staysFull(cell)) volume = share * std::max(room, hardlyRoom);
     }
   }
 
@@ -195,7 +195,7 @@ class WallExchange {
     held.density[cell] += volume * gas.u[euler::kDensity];
     for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas.u[euler::kVelocity(d)];
     held.totalEnergy[cell] += volume * gas.u[euler::kPressure<D>];
-    const bool isVacuum = space_.isVacuum(cell), isClosed = step_.newFree[cell] < leastFreeVolume;
+    const bool isVacuum = space_.isVacuum(cell), isClosed = staysFull(cell);
     for (std::size_t k = 0; k < held.shares.size(); ++k) {
       held.masses[k][cell] += volume * gas.masses[k];
       if (!isClosed) held.shares[k][cell] += volume * (gas.shares[k] - (isVacuum ? 0 : cells_.held.shares[k][cell]));
@@ -260,6 +260,11 @@ class WallExchange {
     }
   }
 
+  /// Whether bodies fill a cell before and after the step. What they displace from a cell that they only now fill may
+  /// be more of one gas than there was, and less of another: the cell then gives the difference to its neighbours.
+  bool staysFull(const Index<D>& cell) const {
+    return step_.newFree[cell] < leastFreeVolume && cells_.free[cell] < leastFreeVolume;
+  }
   /// Whether bodies fill a cell at the start of a step, or leave only a hole without gas.
   bool isFull(const Index<D>& cell) const { return cells_.free[cell] < narrowFreeVolume && space_.isEmpty(cell); }
 

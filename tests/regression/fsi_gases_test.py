@@ -16,6 +16,16 @@ from sus import run
 CONTACT, BUBBLE = (fsi.scene(name).read_text() for name in ("contact_of_gases", "bubble_and_body"))
 
 
+def gases_of(text):
+    """The start and end of the gases in a scene."""
+    return text.index("    <ICE>\n      <material"), text.index("</MaterialProperties>")
+
+
+FIRST, END = gases_of(fsi.DISC)
+DISC_OF_GASES = (fsi.DISC[:FIRST] + CONTACT[slice(*gases_of(CONTACT))].replace("[1,0,0]", "[1,0.618,0]") +
+                 fsi.DISC[END:])
+
+
 def diffusing(text, viscosity, conductivity, specific_heat, heat):
     """A scene whose gases diffuse and exchange heat with the body."""
     text = re.sub(r"<(dynamic_viscosity|thermal_conductivity)>0</\1>", "", text)
@@ -35,6 +45,17 @@ class Gases(unittest.TestCase):
         for cells in (50, 100):
             errors = fsi.contact_of_gases(cells)
             self.assert_within(errors, 1e-11, *errors)
+
+    def test_a_disc_and_gases_of_two_laws_that_move_alike_go_on_as_they_are(self):
+        """Along a diagonal, bodies close cells from two sides."""
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "disc.ups")
+            scene.write_text(DISC_OF_GASES)
+            state = last_state(scene, "c.pressure", "c.freeVolume", "c.density",
+                               sets=fsi.resolution("carried_disc", 25))
+        off = [abs(p - 1) for p, free, mass in zip(*(state[name] for name in (fsi.PRESSURE, fsi.FREE, fsi.DENSITY)))
+               if free >= 1e-9 and mass > 0]
+        self.assertLess(max(off), 1e-11)
 
     def test_a_plug_between_two_gases_each_of_which_keeps_its_mass(self):
         errors = fsi.plug_of_gases(100)
