@@ -312,6 +312,7 @@ std::string toJson(const Report& report) {
   json["archive"] = report.archive;
   json["unused_petsc_options"] = report.unusedOptions;
   json["fingerprint"] = report.fingerprint;
+  if (!report.fingerprintOfOthers.empty()) json["fingerprint_of_others"] = report.fingerprintOfOthers;
   return json.dump(2) + "\n";
 }
 
@@ -342,6 +343,8 @@ std::string toText(const Report& report) {
           energyTable(report) + timeTable(report);
   if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
   text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
+  if (!report.fingerprintOfOthers.empty())
+    text += fmt::format("  fingerprint {} of other saved variables\n", report.fingerprintOfOthers);
   return text;
 }
 

@@ -110,6 +110,7 @@ struct Report {
   std::vector<std::string> kept;
   std::vector<tasks::LeftOut> leftOut;
   std::string fingerprint;
+  std::string fingerprintOfOthers;         ///< of what else is saved; empty if there is nothing
   std::string archive;                     ///< folder of the archive, if anything was saved
   std::vector<std::string> unusedOptions;  ///< PETSc options that were not used by any solve
 };

@@ -333,6 +333,13 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
   return wants;
 }
 
+std::vector<std::string> Phases::savedBesides() const {
+  std::vector<std::string> others;
+  const std::vector<std::string>& counted = fingerprinted();
+  std::set_difference(lasting_.begin(), lasting_.end(), counted.begin(), counted.end(), std::back_inserter(others));
+  return others;
+}
+
 void Phases::takeSaves(const std::vector<SaveRequest>& saves, const std::vector<std::unique_ptr<Analysis>>& analyses) {
   for (auto problems : {problemsOf(saves), problemsOf(analyses)}) throwIfAny(std::move(problems));
   sortSaves(named(saves));

@@ -55,6 +55,9 @@ class Phases {
   /// Names of the variables in the fingerprint: the state or, if no step needs variables of the previous step, the
   /// saved and measured variables.
   const std::vector<std::string>& fingerprinted() const { return state_.empty() ? lasting_ : state_; }
+  /// Names of saved and measured variables that outlive a step, but are not in the fingerprint: no later step and no
+  /// total needs them.
+  std::vector<std::string> savedBesides() const;
   /// Sorted names of the variables that outlive a step: the state, and other saved variables.
   const std::vector<std::string>& lasting() const { return lasting_; }
   /// Saved variables of particles, nodes and cells.

@@ -91,6 +91,8 @@ Report RunReport::make(double fileMemory) {
   addReported(report);
   addErrors(report);
   report.fingerprint = collect::fingerprint(run_.warehouse, run_.phases.fingerprinted(), run_.materials());
+  if (const std::vector<std::string> others = run_.phases.savedBesides(); !others.empty())
+    report.fingerprintOfOthers = collect::fingerprint(run_.warehouse, others, run_.materials());
   return report;
 }
 

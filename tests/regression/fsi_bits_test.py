@@ -10,7 +10,7 @@ import gas_and_bodies as fsi
 import wall_gallery
 from gas_and_bodies import PLUG, RESTING, VISCOUS, changed
 from solids import SceneTest, archive_of, columns
-from sus import run
+from sus import bits_of, run
 from uda import FolderTest
 
 
@@ -42,12 +42,12 @@ class Bits(SceneTest, FolderTest):
             done = run(scene, *sets, f"Grid/Level/Box/patches={layout}",
                        options=("--quiet", "-nthreads", str(1 + place % 2)))
             self.assertIsNotNone(done.report, done.err)
-            prints.setdefault(done.report["fingerprint"], []).append(layout)
+            prints.setdefault(bits_of(done.report), []).append(layout)
         if ranks:
             done = run(scene, *sets, f"Grid/Level/Box/patches={layouts[-1]}", ranks=3)
             self.assertIsNotNone(done.report, done.err)
-            prints.setdefault(done.report["fingerprint"], []).append("3 ranks")
-        in_parts = self.fingerprint_of_two_parts(scene, self.CASES[name][0], *sets)
+            prints.setdefault(bits_of(done.report), []).append("3 ranks")
+        in_parts = self.bits_of_two_parts(scene, self.CASES[name][0], *sets)
         prints.setdefault(in_parts, []).append("restarted")
         self.assertEqual(len(prints), 1, f"{name}: {prints}")
 

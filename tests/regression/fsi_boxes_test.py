@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/pyth
 import tushar
 from gas_and_bodies import changed
 from solids import SceneTest, archive_of, globals_of
-from sus import run
+from sus import bits_of, run
 from uda import FolderTest
 
 BOX = "<Box><lower>[{}]</lower><upper>[{}]</upper><resolution>[{}]</resolution></Box>"
@@ -112,12 +112,12 @@ class InnerSides(SceneTest):
 class Layouts(FolderTest, SceneTest):
     def test_have_the_same_bits_on_any_number_of_threads_and_ranks_and_after_a_restart(self):
         scene, steps = self.scene(SCENE), 40
-        prints = {self.fingerprint_of_two_parts(scene, steps)}
+        prints = {self.bits_of_two_parts(scene, steps)}
         for layout, threads, ranks in (("1x1x1", 1, 1), ("3x2x1", 2, 1), ("4x5x1", 1, 3), ("8x1x1", 2, 2)):
             done = run(scene, f"Time/max_Timesteps={steps}", ranks=ranks,
                        options=("--quiet", "-layout", layout, "-nthreads", str(threads)))
             self.assertIsNotNone(done.report, done.err)
-            prints.add(done.report["fingerprint"])
+            prints.add(bits_of(done.report))
         self.assertEqual(len(prints), 1)
 
 

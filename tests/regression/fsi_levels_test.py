@@ -9,7 +9,7 @@ import gas_and_bodies as fsi
 from fsi_gases_test import CONTACT as GASES
 from fsi_test import DISC, LIGHT, ConservationTest, also, changed, saving
 from solids import SceneTest, archive_of, columns, globals_of
-from sus import run
+from sus import bits_of, run
 from uda import FolderTest
 
 END = "</Uintah_specification>"
@@ -158,11 +158,11 @@ class Bits(SceneTest, FolderTest):
         self.assert_same(self.scene(refined(changed(DISC, *WAVES))), *SIZE, "Time/max_Timesteps=12", steps=12)
 
     def assert_same(self, scene, *sets, steps):
-        expected = run(scene, *sets).report["fingerprint"]
+        expected = bits_of(run(scene, *sets).report)
         for options in (("-layout", "1x1x1"), ("-layout", "4x2x1", "-nthreads", "2")):
-            self.assertEqual(run(scene, *sets, options=options).report["fingerprint"], expected, options)
-        self.assertEqual(run(scene, *sets, ranks=2).report["fingerprint"], expected)
-        self.assertEqual(self.fingerprint_of_two_parts(scene, steps, *sets), expected)
+            self.assertEqual(bits_of(run(scene, *sets, options=options).report), expected, options)
+        self.assertEqual(bits_of(run(scene, *sets, ranks=2).report), expected)
+        self.assertEqual(self.bits_of_two_parts(scene, steps, *sets), expected)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from sus import ROOT, run
+from sus import ROOT, bits_of, run
 from uda import words_of
 
 TRACKED = "MPM/gas_dynamics/volume_model=tracked"
@@ -50,7 +50,7 @@ class Layouts(unittest.TestCase):
             options = ("--quiet", "-nthreads", str(threads), "-layout", words_of(layout))
             result = run(scene, *sets, options=options)
             self.assertIsNotNone(result.report, result.err)
-            found = (result.code, result.report["fingerprint"], result.report["steps"])
+            found = (result.code, bits_of(result.report), result.report["steps"])
             prints.setdefault(found, []).append((layout, threads))
         self.assertEqual(len(prints), 1, f"{scene} {sets}: {prints}")
 

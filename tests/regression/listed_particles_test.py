@@ -9,7 +9,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from solids import RefusedSceneTest, SceneTest, globals_of, last_state
-from sus import ROOT, run
+from sus import ROOT, bits_of, run
 from uda import Folder
 
 SCENE = "ups/solid/crushed_foam.ups"
@@ -83,16 +83,16 @@ class ListedParticles(SceneTest):
                     self.assertAlmostEqual(one[1] / scale, other[1] / scale, delta=1e-9)
 
     def test_have_the_same_bits_on_any_layout_and_after_a_restart(self):
-        expected = run(SCENE, SHORT).report["fingerprint"]
+        expected = bits_of(run(SCENE, SHORT).report)
         for layout, ranks in (("[2,2,1]", 1), ("[1,3,2]", 2)):
-            self.assertEqual(run(SCENE, SHORT, f"Grid/Level/Box/patches={layout}", ranks=ranks).report["fingerprint"],
+            self.assertEqual(bits_of(run(SCENE, SHORT, f"Grid/Level/Box/patches={layout}", ranks=ranks).report),
                              expected)
         folder = Folder()
         self.addCleanup(folder.cleanup)
         folder.run(SCENE, "DataArchiver/checkpoint/@timestepInterval=20", "Time/max_Timesteps=24")
         code, errors, report = folder.restart(SHORT, "Grid/Level/Box/patches=[2,1,2]", step=20)
         self.assertEqual((code, errors), (0, ""))
-        self.assertEqual(report["fingerprint"], expected)
+        self.assertEqual(bits_of(report), expected)
 
 
 class RefusedLists(RefusedSceneTest):

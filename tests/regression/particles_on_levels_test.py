@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from solids import archive_of, columns
-from sus import run
+from sus import bits_of, run
 from uda import Folder
 
 SCENE = "ups/solid/penetration_levels.ups"
@@ -54,15 +54,15 @@ class ParticlesOnLevels(unittest.TestCase):
         self.assertLess(sum(report["levels"]), .3 * 256 * 256)
 
     def test_layouts_threads_and_a_restart_change_no_bit(self):
-        expected = run(SCENE, *SHORT).report["fingerprint"]
+        expected = bits_of(run(SCENE, *SHORT).report)
         for options in (("-layout", "1x1x1"), ("-layout", "4x4x1", "-nthreads", "2")):
-            self.assertEqual(run(SCENE, *SHORT, options=options).report["fingerprint"], expected, options)
+            self.assertEqual(bits_of(run(SCENE, *SHORT, options=options).report), expected, options)
         folder = Folder()
         self.addCleanup(folder.cleanup)
         folder.run(SCENE, *SHORT[:1], "DataArchiver/checkpoint/@timestepInterval=52", "Time/max_Timesteps=60")
         code, errors, report = folder.restart(SHORT[1], step=52)
         self.assertEqual((code, errors), (0, ""))
-        self.assertEqual(report["fingerprint"], expected)
+        self.assertEqual(bits_of(report), expected)
 
     def test_a_body_that_is_too_thin_for_coarse_cells_is_there(self):
         thin = (r"\[0.1875,0.26,1\]", "[0.1775,0.26,1]")

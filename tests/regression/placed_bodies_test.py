@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from solids import archive_of, columns, globals_of
-from sus import run
+from sus import bits_of, run
 from uda import Folder
 
 SCENE = "ups/solid/placed_bodies.ups"
@@ -42,14 +42,14 @@ class PlacedBodies(unittest.TestCase):
         self.assertGreater(max(line[1] for line in hot), 1e2 * max(abs(line[1]) for line in cold[:5]))
 
     def test_a_restart_on_other_patches_gives_the_same_bits(self):
-        expected = run(SCENE).report["fingerprint"]
+        expected = bits_of(run(SCENE).report)
         folder = Folder()
         self.addCleanup(folder.cleanup)
         folder.run(SCENE, "DataArchiver/checkpoint/@timestepInterval=10", "Time/max_Timesteps=12",
                    "Grid/Level/Box/patches=[2,1,1]")
         code, errors, report = folder.restart("Time/max_Timesteps=100000", "Grid/Level/Box/patches=[3,2,1]", step=10)
         self.assertEqual((code, errors), (0, ""))
-        self.assertEqual(report["fingerprint"], expected)
+        self.assertEqual(bits_of(report), expected)
 
     def test_what_cannot_be_is_refused(self):
         wide = run(SCENE, BOXES + "affineTransformation_A0=[3,0,0]", BOXES + "affineTransformation_A1=[0,1,0]",

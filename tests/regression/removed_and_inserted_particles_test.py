@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from solids import last_state
-from sus import run
+from sus import bits_of, run
 from uda import Folder
 
 COLLISION = "ups/solid/two_discs.ups"
@@ -149,12 +149,12 @@ class InsertedParticles(unittest.TestCase):
         folder = Folder()
         self.addCleanup(folder.cleanup)
         scene = pellets(folder.path)
-        prints = {run(scene, f"Grid/Level/Box/patches={layout}").report["fingerprint"]
+        prints = {bits_of(run(scene, f"Grid/Level/Box/patches={layout}").report)
                   for layout in ("[1,1,1]", "[4,2,1]")}
         folder.run(scene, "DataArchiver/checkpoint/@timestepInterval=6", "Time/max_Timesteps=6")
         code, errors, report = folder.restart("Time/max_Timesteps=100000", "Grid/Level/Box/patches=[2,3,1]", step=6)
         self.assertEqual((code, errors), (0, ""))
-        self.assertEqual(prints, {report["fingerprint"]})
+        self.assertEqual(prints, {bits_of(report)})
 
     def test_may_not_come_along_an_axis_that_the_grid_leaves_out(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/python"))
 import tushar
 from solids import RefusedSceneTest, SceneTest, archive_of, globals_of
-from sus import ROOT, run
+from sus import ROOT, bits_of, run
 from uda import FolderTest
 
 SCENE = (ROOT / "ups/solid/shaft.ups").read_text()
@@ -142,13 +142,13 @@ class InnerSides(SceneTest):
 class Patches(FolderTest):
     def test_the_same_bits_on_any_patches_threads_ranks_and_after_a_restart(self):
         name, steps = "ups/solid/shaft.ups", 1300  # it has passed the edges of the shaft, and landed
-        prints = {self.fingerprint_of_two_parts(name, steps)}
+        prints = {self.bits_of_two_parts(name, steps)}
         for layout, threads, ranks in (("1x1x1", 1, 1), ("2x2x1", 2, 1), ("3x3x1", 1, 3), ("32x32x1", 2, 1),
                                        ("1x7x1", 1, 2), ("5x1x1", 2, 1)):
             done = run(name, f"Time/max_Timesteps={steps}", ranks=ranks,
                        options=("--quiet", "-layout", layout, "-nthreads", str(threads)))
             self.assertIsNotNone(done.report, done.err)
-            prints.add(done.report["fingerprint"])
+            prints.add(bits_of(done.report))
         self.assertEqual(len(prints), 1)
 
     def test_cuts_may_follow_the_particles(self):

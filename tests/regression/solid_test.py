@@ -6,7 +6,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from solids import globals_of, last_state
-from sus import run
+from sus import bits_of, run
 from uda import Folder
 
 DISCS = "ups/solid/two_discs.ups"
@@ -58,16 +58,16 @@ class Solids(unittest.TestCase):
         for scene, layouts, steps in ((TAYLOR, ("[1,1,1]", "[3,4,1]"), 40), (SPALL, ("[1,1,1]", "[7,1,1]"), 190),
                                       (RIEMANN, ("[1,1,1]", "[6,1,1]"), 30)):
             steps = f"Time/max_Timesteps={steps}"
-            prints = {run(scene, f"Grid/Level/Box/patches={layout}", steps).report["fingerprint"] for layout in layouts}
+            prints = {bits_of(run(scene, f"Grid/Level/Box/patches={layout}", steps).report) for layout in layouts}
             folder = Folder()
             self.addCleanup(folder.cleanup)
             folder.run(scene, "DataArchiver/checkpoint/@timestepInterval=13", steps)
             code, errors, report = folder.restart(steps, step=int(folder.checkpoints[0].name[1:]))
             self.assertEqual((code, errors), (0, ""))
-            self.assertEqual(len(prints | {report["fingerprint"]}), 1, scene)
+            self.assertEqual(len(prints | {bits_of(report)}), 1, scene)
 
     def test_the_same_bits_on_any_patches(self):
-        prints = {run(DISCS, f"Grid/Level/Box/patches={layout}", "Time/max_Timesteps=60").report["fingerprint"]
+        prints = {bits_of(run(DISCS, f"Grid/Level/Box/patches={layout}", "Time/max_Timesteps=60").report)
                   for layout in ("[1,1,1]", "[2,2,1]", "[3,1,2]", "[7,5,1]")}
         self.assertEqual(len(prints), 1)
 

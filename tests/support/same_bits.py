@@ -1,8 +1,8 @@
-"""Tests that the results of a scene are bitwise equal on any patches, threads and ranks, and after a restart."""
+"""Tests that the results of a scene, also what is only saved, have the same bits on any layout and after a restart."""
 import pathlib
 
 import gas_and_bodies as fsi
-from sus import run
+from sus import bits_of, run
 from uda import FolderTest
 
 
@@ -16,7 +16,7 @@ class SameBitsTest(FolderTest):
             done = run(scene, *sets, f"Grid/Level/Box/patches={layout}", ranks=ranks if place == 2 else 1,
                        options=("--quiet", "-nthreads", str(1 + place % 2)))
             self.assertIsNotNone(done.report, done.err)
-            prints.setdefault(done.report["fingerprint"], []).append(layout)
-        in_parts = self.fingerprint_of_two_parts(scene, steps, *sets)
+            prints.setdefault(bits_of(done.report), []).append(layout)
+        in_parts = self.bits_of_two_parts(scene, steps, *sets)
         prints.setdefault(in_parts, []).append("restarted")
         self.assertEqual(len(prints), 1, f"{name}: {prints}")

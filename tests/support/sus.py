@@ -18,6 +18,11 @@ def on_ranks(count):
     return [] if count == 1 else ["mpirun", "--oversubscribe", "-n", str(count)]
 
 
+def bits_of(report):
+    """Returns the fingerprints of the state and of what else is saved, in one string."""
+    return " ".join(report[key] for key in ("fingerprint", "fingerprint_of_others") if key in report)
+
+
 class Result:
     """Exit code, printed text, report if there is one, and names of the files left behind."""
 

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from sus import ROOT, SUS, on_ranks
+from sus import ROOT, SUS, bits_of, on_ranks
 
 
 PATIENCE = 1200  # seconds after which a run hangs, even on a machine with much else to do
@@ -89,6 +89,14 @@ class FolderTest(unittest.TestCase):
 
     def fingerprint_of_two_parts(self, scene, steps, *sets):
         """Returns the fingerprint of a run that is restarted from a checkpoint in its middle."""
+        return self.in_two_parts(scene, steps, *sets)["fingerprint"]
+
+    def bits_of_two_parts(self, scene, steps, *sets):
+        """Returns all fingerprints of such a run."""
+        return bits_of(self.in_two_parts(scene, steps, *sets))
+
+    def in_two_parts(self, scene, steps, *sets):
+        """Returns the report of a run that is restarted from a checkpoint in its middle."""
         folder, half = self.folder(), steps // 2
         folder.run(scene, *sets, f"DataArchiver/checkpoint/@timestepInterval={half}", f"Time/max_Timesteps={half + 1}")
-        return self.well(folder.restart(f"Time/max_Timesteps={steps}", step=half))["fingerprint"]
+        return self.well(folder.restart(f"Time/max_Timesteps={steps}", step=half))
