@@ -165,7 +165,7 @@ class Packing {
   int bits_ = 0;
 };
 
-/// Sorts with a table of all possible keys (counting sort).
+/// Sorts with a table of all possible keys (counting sort). Of particles with the same id, one remains.
 std::vector<Place> sortedByTable(const Parts& ids, const Packing& keyOf) {
   constexpr std::uint32_t nobody = ~std::uint32_t{0};
   std::vector<Place> places(std::size_t{1} << keyOf.bits(), Place{nobody, 0});
@@ -179,7 +179,7 @@ struct Keyed {
   Place place;
 };
 
-/// Sorts by digits of 11 bits, lowest digit first (radix sort).
+/// Sorts by digits of 11 bits, lowest digit first (radix sort). Of particles with the same id, one remains.
 std::vector<Place> sortedByDigits(const Parts& ids, const Packing& keyOf, std::size_t count) {
   constexpr int bits = 11;
   constexpr std::size_t digits = std::size_t{1} << bits;
@@ -195,8 +195,10 @@ std::vector<Place> sortedByDigits(const Parts& ids, const Packing& keyOf, std::s
     for (const Keyed& one : all) other[next[digitOf(one.key)]++] = one;
     all.swap(other);
   }
-  std::vector<Place> places(count);
-  for (std::size_t k = 0; k < count; ++k) places[k] = all[k].place;
+  const auto isSame = [](const Keyed& a, const Keyed& b) { return a.key == b.key; };
+  all.erase(std::unique(all.begin(), all.end(), isSame), all.end());
+  std::vector<Place> places(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) places[k] = all[k].place;
   return places;
 }
 
@@ -221,9 +223,24 @@ Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& p
   return withoutOverlaps(std::move(runs));
 }
 
-std::vector<Place> placesById(const Parts& ids) {
+namespace {
+
+std::size_t countOf(const Parts& ids) {
   std::size_t count = 0;
   for (const Part& part : ids.of) count += part.count;
+  return count;
+}
+
+/// Throws TaskError on all ranks if particles of any of them have the same id, so that not all have a place.
+/// Collective.
+void refuseRepeatedIds(const mpi::Communicator& ranks, const Parts& ids, const ParticlePlaces& ranked) {
+  if (ranks.any(ranked.places.size() < countOf(ids))) throw TaskError(repeatedIds);
+}
+
+}  // namespace
+
+std::vector<Place> placesById(const Parts& ids) {
+  const std::size_t count = countOf(ids);
   std::uint64_t all = 0, common = ~std::uint64_t{0};
   forEachId(ids, [&](std::uint64_t id, const Place&) {
     all |= id;
@@ -237,6 +254,7 @@ std::vector<Place> placesById(const Parts& ids) {
 ParticlePlaces rankedById(const mpi::Communicator& ranks, const Parts& ids) {
   ParticlePlaces ranked{placesById(ids)};
   ranked.count = ranked.places.size();
+  refuseRepeatedIds(ranks, ids, ranked);
   if (ranks.isAlone()) return ranked;
   std::vector<std::uint64_t> sorted(ranked.places.size());
   for (std::size_t k = 0; k < sorted.size(); ++k) {

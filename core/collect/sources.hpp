@@ -29,7 +29,7 @@ struct Place {
   std::uint32_t patch, index;
 };
 
-/// The memory locations of the particles with these ids, sorted by id.
+/// The memory locations of the particles with these ids, sorted by id; of particles with the same id, one.
 std::vector<Place> placesById(const Parts& ids);
 
 /// How entries of a variable are converted for an array: unchanged, or extended to x, y, z.
@@ -66,7 +66,8 @@ struct ParticlePlaces {
   std::size_t count = 0;  ///< number of particles on all ranks
 };
 
-/// The particles with these ids, sorted by id, with their positions among those of all ranks. Collective.
+/// The particles with these ids, sorted by id, with their positions among those of all ranks. Throws TaskError if ids
+/// repeat, on any ranks. Collective.
 ParticlePlaces rankedById(const mpi::Communicator& ranks, const Parts& ids);
 
 /// A source that provides entries in the order of the runs; `entries` is the number of entries on all ranks.

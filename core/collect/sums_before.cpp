@@ -5,6 +5,7 @@
 #include <cstring>
 #include <queue>
 
+#include "core/base/error.hpp"
 #include "core/base/mpi_together.hpp"
 
 namespace tushar::collect {
@@ -49,8 +50,14 @@ std::vector<std::uint64_t> wordsOf(const mpi::Bytes& bytes) {
   return words;
 }
 
-/// Replaces each key of a section by the sum of the weights of all smaller keys; returns the sum of all weights.
-std::uint64_t merge(std::vector<Part>& parts, bool isWeighted) {
+/// The sum of all weights of a section, and whether keys repeat there.
+struct Merged {
+  std::uint64_t sum = 0;
+  bool repeats = false;
+};
+
+/// Replaces each key of a section by the sum of the weights of all smaller keys.
+Merged merge(std::vector<Part>& parts, bool isWeighted) {
   struct Next {
     std::uint64_t key;
     std::size_t part, place;
@@ -60,16 +67,18 @@ std::uint64_t merge(std::vector<Part>& parts, bool isWeighted) {
   for (std::size_t k = 0; k < parts.size(); ++k)
     if (parts[k].count > 0) next.push({parts[k].words.front(), k, 0});
   std::uint64_t sum = 0;
+  bool repeats = false;
   while (!next.empty()) {
     const Next least = next.top();
     next.pop();
+    repeats |= !next.empty() && next.top().key == least.key;
     Part& part = parts[least.part];
     const std::size_t after = least.place + 1;
     part.words[least.place] = sum;
     sum += isWeighted ? part.words[part.count + least.place] : 1;
     if (after < part.count) next.push({part.words[after], least.part, after});
   }
-  return sum;
+  return {sum, repeats};
 }
 
 /// The keys and weights of this rank, divided into sections.
@@ -86,8 +95,9 @@ class Sections {
     std::vector<Part> parts = gathered();
     const bool isWeighted = ranks_.any(!weights_.empty());
     for (Part& part : parts) part.count = part.words.size() / (isWeighted ? 2 : 1);
-    const std::uint64_t before = mpi::sumBefore(ranks_, merge(parts, isWeighted));
-    return handedBack(parts, before);
+    const Merged merged = merge(parts, isWeighted);
+    if (ranks_.any(merged.repeats)) throw TaskError(repeatedIds);
+    return handedBack(parts, mpi::sumBefore(ranks_, merged.sum));
   }
 
  private:

@@ -27,7 +27,8 @@ class ParticleMaker {
  public:
   explicit ParticleMaker(std::size_t accesses) : columns_(accesses) {}
 
-  /// Adds a particle in a cell of the patch; each created label then needs one more value.
+  /// Adds a particle in a cell of the patch; each created label then needs one more value. No other particle of the
+  /// material may have the same `id`, on any patch: outputs and checkpoints refuse them with a TaskError.
   template <int D>
   void add(const Index<D>& cell, ParticleId id) {
     Index3 wide;

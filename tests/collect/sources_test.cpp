@@ -63,6 +63,14 @@ TEST(PlacesById, AreOneForOneParticle) {
   EXPECT_EQ(placesById(Parts{{Part{}, partOf(id)}}).size(), 1U);
 }
 
+TEST(RankedById, RefusesIdsThatRepeat) {
+  const std::vector<std::uint64_t> dense{3, 4, 5}, one{4}, sparse{3, std::uint64_t{1} << 50, std::uint64_t{1} << 40},
+      other{std::uint64_t{1} << 40};
+  EXPECT_THROW(rankedById(mpi::Communicator::alone(), Parts{{partOf(dense), partOf(one)}}), TaskError);
+  EXPECT_THROW(rankedById(mpi::Communicator::alone(), Parts{{partOf(sparse), partOf(other)}}), TaskError);
+  EXPECT_EQ(rankedById(mpi::Communicator::alone(), Parts{{partOf(dense), partOf(other)}}).count, 4U);
+}
+
 TEST(PlacesById, AreNoneWithoutParticles) { EXPECT_TRUE(placesById(Parts{{Part{}, Part{}}}).empty()); }
 
 TEST(SourceInRuns, GivesTheSameForPiecesThatCutRuns) {

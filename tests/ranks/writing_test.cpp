@@ -122,6 +122,14 @@ TEST(SumsBefore, AreThePlacesOfKeysAmongThoseOfAllRanks) {
     });
 }
 
+TEST(SumsBefore, RefuseKeysThatTwoRanksHave) {
+  const std::vector<std::uint64_t> keys{3, 50, 700};
+  onRanks(3, [&](const mpi::Communicator& ranks) {
+    const std::vector<std::uint64_t> own{keys[static_cast<std::size_t>(ranks.rank())], 1000U + (ranks.rank() + 1) / 2};
+    EXPECT_THROW(collect::sumsBefore(ranks, own), TaskError);
+  });
+}
+
 TEST(SumsBefore, AddWeightsWhereSomeRanksHaveNoKeys) {
   const std::vector<std::uint64_t> some{3, 4, 8}, weights{10, 0, 5}, sums{0, 10, 10};
 
