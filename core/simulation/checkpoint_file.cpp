@@ -154,7 +154,7 @@ void readCheckpoint(RunState& run) {
   checkScene(file, run.problem);
   readTree(file, run);
   output::CheckedParts checks(run.problem.restart->state().parent_path(), run.problem.restart->parts, run.ranks);
-  collect::readState(file, run.warehouse, stateNames(run), run.phases.state(), checks);
+  collect::readState(file, run.warehouse, stateNames(run), run.phases.neededAtRestart(), checks);
   run.time.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
   tasks::LostParticles lost = lostIn(file);
   if (!run.ranks.isFirst()) lost.left = 0;

@@ -333,13 +333,6 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
   return wants;
 }
 
-std::vector<std::string> Phases::savedBesides() const {
-  std::vector<std::string> others;
-  const std::vector<std::string>& counted = fingerprinted();
-  std::set_difference(lasting_.begin(), lasting_.end(), counted.begin(), counted.end(), std::back_inserter(others));
-  return others;
-}
-
 void Phases::takeSaves(const std::vector<SaveRequest>& saves, const std::vector<std::unique_ptr<Analysis>>& analyses) {
   for (auto problems : {problemsOf(saves), problemsOf(analyses)}) throwIfAny(std::move(problems));
   sortSaves(named(saves));
@@ -380,6 +373,9 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);
+  const Names continued = among({lasting_.begin(), lasting_.end()}, requiredByAll({&advance, &sums}));
+  const Names all = united({state_.begin(), state_.end()}, continued);
+  needed_at_restart_ = {all.begin(), all.end()};
   initialize = tasks::TaskGraph("initialize", std::move(init), grid, table);
   stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), grid, table);
   const Names needed = advance.needed;

@@ -58,6 +58,9 @@ class Phases {
   /// Names of saved and measured variables that outlive a step, but are not in the fingerprint: no later step and no
   /// total needs them.
   std::vector<std::string> savedBesides() const;
+  /// Sorted names of the variables that a restart must find: the state, and what else steps continue from their
+  /// previous value because it is saved or measured.
+  const std::vector<std::string>& neededAtRestart() const { return needed_at_restart_; }
   /// Sorted names of the variables that outlive a step: the state, and other saved variables.
   const std::vector<std::string>& lasting() const { return lasting_; }
   /// Saved variables of particles, nodes and cells.
@@ -116,7 +119,7 @@ class Phases {
   Lists lists_;
   std::vector<std::shared_ptr<const data::JointInterpolation>> joints_;
   std::string about_careful_steps_;
-  std::vector<std::string> state_, lasting_, saved_globals_, materials_;
+  std::vector<std::string> state_, lasting_, needed_at_restart_, saved_globals_, materials_;
   tasks::Names summed_;  ///< the variables that analysis modules add up over steps
   std::vector<SaveRequest> saved_fields_;
   std::vector<ConservedTotal> totals_;

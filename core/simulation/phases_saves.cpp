@@ -82,4 +82,11 @@ std::vector<std::string> Phases::remarksOn(const SaveRequest& save) const {
   return remarks;
 }
 
+std::vector<std::string> Phases::savedBesides() const {
+  std::vector<std::string> others;
+  const std::vector<std::string>& counted = fingerprinted();
+  std::set_difference(lasting_.begin(), lasting_.end(), counted.begin(), counted.end(), std::back_inserter(others));
+  return others;
+}
+
 }  // namespace tushar::simulation

@@ -130,6 +130,18 @@ class Restart(FolderTest):
         self.assertEqual(sorted(path.name for path in folder.uda.iterdir()),
                          ["checkpoints", "index.xml", "input.xml", "run.json"])
 
+    def test_what_steps_continue_must_be_in_the_checkpoint(self):
+        """A restart may save more, but not what the steps before it should have carried along: they were left out."""
+        folder = self.folder()
+        self.well(folder.run("ups/solid/two_discs.ups", EVERY.format(5), "Time/max_Timesteps=10"))
+        for name in ("p.displacement", "p.work", "ThermalEnergy", "g.temperature"):
+            code, errors, _ = folder.restart("Time/max_Timesteps=12", f"DataArchiver/save[1]/@label={name}")
+            self.assertEqual(code, 3, errors)
+            self.assertRegex(errors, "the checkpoint has no .*, which the scene needs")
+        code, errors, _ = folder.restart("Time/max_Timesteps=12", "DataAnalysis/Module/@name=energyBudget")
+        self.assertEqual(code, 3, errors)
+        self.well(folder.restart("Time/max_Timesteps=12", "DataArchiver/save[1]/@label=g.stressFS"))
+
 
 if __name__ == "__main__":
     unittest.main()
