@@ -229,8 +229,8 @@ class BodiesAtNodes {
     for (std::size_t k = 0; k < records_->size(); ++k) {
       contents[k] = sumAt(cell, axis, k, lane);
       if (!(contents[k].mass > 0)) continue;
-      if (coverageBy(k, cell, axis) > 0) by = By::coverage;
-      if (by == By::mass && volumeOf(k, cell, axis) > 0) by = By::volume;
+      if (coverageBy(k, cell, axis) > offRoundShares) by = By::coverage;
+      if (by == By::mass && volumeOf(k, cell, axis) > offRoundShares) by = By::volume;
     }
     for (std::size_t k = 0; k < records_->size(); ++k) {
       const double mass = contents[k].mass;

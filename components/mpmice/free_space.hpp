@@ -117,7 +117,31 @@ class FreeSpace {
   /// weights 1 2 1 along the axes perpendicular to each derivative; 0 if the gradient vanishes. Source: D. L. Youngs,
   /// AWRE report 44/92/35 (1984).
   Vec<D> normal(const Index<D>& cell) const {
-    Vec<D> gradient = Vec<D>::Zero();
+    Vec<D> gradient = differences(cell);
+    for (int d = 0; d < D; ++d) gradient[d] *= level_->inverseSpacing(d);
+    const double length = gradient.norm();
+    return length > 0 ? Vec<D>(gradient / length) : gradient;
+  }
+  /// The degree to which the walls of a cell, at these faces, are those of one oblique plane along which gas slips:
+  /// that of facingOneWay. It is less if the neighbours hardly tell where the body of the cell continues, as for a
+  /// grain smaller than the cell, whose normal would be that of round-off.
+  double slip(const Index<D>& cell, const std::array<OpenFaces, D>& faces) const {
+    constexpr double ofPlanes =
+        0.25;  // the least difference per cell, in relation to what a thick body fills of a cell
+    const double filled = filledOf(cell), change = differences(cell).norm();
+    const double known = filled > 0 ? std::min(1.0, change / (ofPlanes * filled)) : 1;
+    return known * facingOneWay<D>(*level_, faces);
+  }
+
+ private:
+  /// The filled fraction of a cell; 0 if it is round-off.
+  double filledOf(const Index<D>& cell) const {
+    const double filled = 1 - cells_.free[cell];
+    return filled > offRoundShares ? filled : 0;
+  }
+  /// Differences of the filled fraction per cell along each axis, with the weights of normal.
+  Vec<D> differences(const Index<D>& cell) const {
+    Vec<D> sum = Vec<D>::Zero();
     Box around{{}, Index3::filled(1)};
     bool isInside = true;
     for (int d = 0; d < D; ++d) {
@@ -126,20 +150,18 @@ class FreeSpace {
     }
     forEach<D>(around, [&](const Index<D>& at) {
       const Index<D> beside = cell + at - Index<D>::filled(1);
-      const double filled = 1 - cells_.free[isInside ? beside : onGrid(beside)];
+      const double filled = filledOf(isInside ? beside : onGrid(beside));
       for (int d = 0; d < D; ++d) {
         if (at[d] == 1) continue;
         double weight = at[d] == 0 ? -1 : 1;
         for (int k = 0; k < D; ++k)
           if (k != d && at[k] == 1) weight *= 2;
-        gradient[d] += weight * filled * level_->inverseSpacing(d);
+        sum[d] += weight * filled;
       }
     });
-    const double length = gradient.norm();
-    return length > 0 ? Vec<D>(gradient / length) : gradient;
+    constexpr double weights = D == 1 ? 2 : D == 2 ? 8 : 32;
+    return sum / weights;
   }
-
- private:
   /// The open fraction of a face on a side of the grid, of a cell with gas. Beyond a symmetry plane, there is the
   /// mirror image of the cell; other sides are as open as the cell.
   double openAtSide(const Index<D>& cell, int axis, int side) const {

@@ -28,7 +28,7 @@ class CellFriction {
       : normal_(space.normal(cell)) {
     std::array<OpenFaces, D> all;
     for (int a = 0; a < D; ++a) all[a] = space.faces(cell, a);
-    slip_ = facingOneWay<D>(level, all);
+    slip_ = space.slip(cell, all);
     for (int a = 0; a < D; ++a) {
       const OpenFaces& faces = all[a];
       const double along = slip_ * std::abs(normal_[a]) + (1 - slip_);

@@ -21,26 +21,29 @@ struct WallPressures {
 template <int D>
 class CellWalls {
  public:
-  CellWalls(const Level& level, const FreeSpace<D>& space, const Index<D>& cell, const euler::State<D>& w)
+  CellWalls(const FreeSpace<D>& space, const Index<D>& cell, const euler::State<D>& w)
       : normal_(space.normal(cell)), w_(w) {
     for (int d = 0; d < D; ++d) faces_[d] = space.faces(cell, d);
-    slip_ = facingOneWay<D>(level, faces_);
+    slip_ = space.slip(cell, faces_);
   }
   bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
   /// The velocities of the walls at the lower and upper faces along each axis [m/s]; undefined where there is none.
   using Velocities = std::array<std::array<Vec<D>, 2>, D>;
   /// Lets the gas slip less if walls do not form one oblique wall, because they belong to bodies that slide along each
-  /// other: half as much if the velocities of any two differ by a quarter of the speed of sound.
+  /// other: half as much if the velocities of any two differ by a quarter of the speed of sound. Walls of less than an
+  /// eighth of a face count in proportion, so that a box which touches a face by round-off changes nothing.
   void separate(const Velocities& walls, const euler::Gas& gas) {
-    std::array<const Vec<D>*, 2 * D> others;
+    std::array<std::pair<const Vec<D>*, double>, 2 * D> others;
     std::size_t count = 0;
     double apart = 0;
     for (int d = 0; d < D; ++d)
       for (const int side : {0, 1}) {
         if (!hasWall(d, side)) continue;
         const Vec<D>& own = walls[d][side];
-        for (std::size_t k = 0; k < count; ++k) apart = std::max(apart, (own - *others[k]).squaredNorm());
-        others[count++] = &own;
+        const double part = std::min(1.0, 8 * faces_[d].wall(side));
+        for (std::size_t k = 0; k < count; ++k)
+          apart = std::max(apart, std::min(part, others[k].second) * (own - *others[k].first).squaredNorm());
+        others[count++] = {&own, part};
       }
     const double c2 = gas.soundSpeedSquared(w_[euler::kDensity], w_[euler::kPressure<D>]);
     slip_ *= c2 / (c2 + 16 * apart);
@@ -105,7 +108,7 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   near.forEachActingIn(patch.cells(), [&](const Index<D>& cell) {
     if (space.isEmpty(cell) || space.isOpenAround(cell)) return;
     const euler::Gas law = lawAt<D>(settings, cells.held, cells.free[cell], cell);
-    CellWalls<D> ofCell(level, space, cell, cells.primitive(law, cell));
+    CellWalls<D> ofCell(space, cell, cells.primitive(law, cell));
     typename CellWalls<D>::Velocities velocities;
     for (int d = 0; d < D; ++d)
       for (const int side : {0, 1})
