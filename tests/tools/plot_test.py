@@ -156,6 +156,28 @@ class Differences(WithArchives):
             x, values = output.particles(Quantity.of(output.snapshot.archive, "p.x.x"), "b")
             self.assertEqual((x[:, 0].tolist(), values.tolist()), ([31, 41], [0, 0.5]))
 
+    def test_of_particles_need_the_same_cells(self):
+        with tempfile.TemporaryDirectory() as folder:
+            other = fake_uda.make_moving(folder)
+            for file in Archive(other).files:
+                with h5py.File(file, "r+") as output:
+                    output["grid"].attrs.update(cells=[100, 1, 1], spacing=[0.5, 1, 1])
+            code, _, err = self.plot(self.moving, "p.mass", "--diff", other)
+        self.assertEqual(code, 1)
+        self.assertIn("the grids differ, 50 cells here and 100 cells in", err)
+        self.assertIn("so the particles do not correspond: choose a run with the same cells", err)
+
+    def test_of_particles_need_the_same_levels(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one, other = (Archive(fake_uda.make_refined(folder, name=name)) for name in ("one", "other"))
+            with h5py.File(other.files[1], "r+") as file:
+                file["grid"].attrs.update(cells=[8, 4, 1], spacing=[0.125, 0.25, 0.5])
+                file["grid/boxes"][...] = np.array([(0, 0, 0, 0, 8, 4, 1)] * 4)
+                del file["grid/levels"]
+                file["grid/levels"] = [[0.125, 0.25, 0.5], [0.0625, 0.125, 0.5]]
+            with self.assertRaisesRegex(ArchiveError, "the grids differ, 3 levels here and 2 levels in"):
+                Figure(one, variables=["p.x.x"], view=View(other=other))
+
     def test_that_cannot_be_drawn_are_told(self):
         grids = "the grids differ, 6 x 4 cells here and 100 cells in"
         for options, sentence in (((self.plate, "--diff", self.sod), grids),

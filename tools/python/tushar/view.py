@@ -140,6 +140,11 @@ class Output:
         if material not in self.other.materials:
             raise ArchiveError(f"'{self.other.archive.folder}' has no particles of '{material}', so there is no "
                                "difference to draw")
+        here, there = self.grid, self.other.grid
+        shapes = [f"{grid.levels} levels" if here == there else shape_of(grid) for grid in (here, there)]
+        if here != there or here.levels != there.levels:
+            raise ArchiveError(f"the grids differ, {shapes[0]} here and {shapes[1]} in '{self.other.archive.folder}', "
+                               "so the particles do not correspond: choose a run with the same cells")
         return self.other.particles(material)
 
     def owners(self, quantity: Quantity) -> List[Optional[str]]:
