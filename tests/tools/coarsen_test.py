@@ -73,6 +73,13 @@ class Coarsen(unittest.TestCase):
         self.assertEqual(coarsen(self.archive, "--by", 2, "--lower", "2,0", "--out", self.table)[0], 2)
         self.assertEqual(coarsen(self.folder.name, "--by", 2, "--out", self.table)[0], 1)
 
+    def test_refuses_numbers_that_mean_nothing(self):
+        for option, least in (("--by", "of at least 1"), ("--bits", "from 1 to 52")):
+            for text in ("0", "-2", "1.5", "two", *(["53"] if option == "--bits" else [])):
+                code, said = coarsen(self.archive, "--by", 2, f"{option}={text}", "--out", "none.h5")
+                self.assertEqual(code, 2, said)
+                self.assertIn(f"argument {option}: found '{text}', expected a whole number {least}", said)
+
     def errors(self, cells, table):
         result = run(SCENE, *SETS, f"Grid/Level/Box/resolution=[{cells},{cells},1]",
                      f"DataAnalysis/Module/file={table}")
