@@ -156,6 +156,19 @@ class ParticlesOverTime(InFolder):
         with self.assertRaisesRegex(tushar.ArchiveError, "no output has a particle with id 11, 12"):
             tushar.open(self.path).particles(ids=[10, 11, 12])["p.x"]
 
+    def test_an_id_of_several_materials_needs_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = fake_uda.make_moving(folder)
+            with h5py.File(os.path.join(path, "t00001.h5"), "r+") as file:
+                file["particles/b/p.particleID"][1] = 10
+            archive = tushar.open(path)
+            sentence = "several materials, a and b, have the id 10; choose one: .*material='b'"
+            for tracks in (archive.particles(ids=[30, 10]), archive.particles()):
+                with self.assertRaisesRegex(tushar.ArchiveError, sentence):
+                    tracks["p.x"]
+            np.testing.assert_array_equal(archive.particles([10], "b")["p.x"][:, 0, 0], [np.nan, 41])
+            np.testing.assert_array_equal(archive.particles([10], "a")["p.x"][:, 0, 0], [10, 11])
+
     def test_only_whole_numbers_from_0_on_are_ids(self):
         archive = tushar.open(self.path)
         for ids in ([-1], [10.5], ["10"], [True]):

@@ -277,7 +277,8 @@ class Archive(Sequence[Snapshot]):
         raise ArchiveError(f"there is no report of '{self.folder}': sus --json report.json writes one next to it")
 
     def particles(self, ids: Optional[Sequence[int]] = None, material: Optional[str] = None) -> Tracks:
-        """Particles over time, identified by their ids; by default all particles of the last output."""
+        """Particles over time, identified by their ids; by default all particles of the last output. Particles of
+        different materials may have the same id; then name the material."""
         return Tracks(self, ids, material)
 
     def to_xarray(self, variables: Optional[Sequence[str]] = None) -> Any:

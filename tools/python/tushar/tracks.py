@@ -26,7 +26,8 @@ def checked_ids(ids: Any) -> Values:
 
 class Tracks:
     """Particles by their ids over all outputs: `tracks["p.x"]` has the shape (times, ids) or (times, ids, components),
-    NaN if a particle does not exist. Whatever is asked for is read then, and not kept."""
+    NaN if a particle does not exist. Whatever is asked for is read then, and not kept. Raises ArchiveError if an id is
+    that of particles of several materials, and no material is named."""
 
     def __init__(self, archive: Archive, ids: Optional[Sequence[int]], material: Optional[str]) -> None:
         self.archive, self.material = archive, material
@@ -70,7 +71,7 @@ class Tracks:
 
     def _read(self, snapshot: Snapshot, name: str, row: Values) -> Values:
         """Writes the values of an output into `row`; returns which ids were found."""
-        found = np.zeros(len(self.ids), bool)
+        found, owners = np.zeros(len(self.ids), bool), np.zeros(len(self.ids), object)
         for material in [self.material] if self.material else snapshot.materials:
             group = snapshot.file["particles"][check_name("material", material, snapshot.materials)]
             if ID not in group:
@@ -80,9 +81,13 @@ class Tracks:
             places = np.searchsorted(known, self.ids, sorter=order)
             here = places < len(known)
             here[here] = known[order[places[here]]] == self.ids[here]
+            if (found & here).any():
+                twice = int(np.argmax(found & here))
+                raise ArchiveError(f"particles of several materials, {owners[twice]} and {material}, have the id "
+                                   f"{self.ids[twice]}; choose one: particles(ids, material='{material}')")
             if name in group and here.any():
                 row[here] = rows_of(group[name], order[places[here]]).reshape(int(here.sum()), -1)
-            found |= here
+            found, owners = found | here, np.where(here, material, owners)
         return found
 
     def to_pandas(self) -> Any:
