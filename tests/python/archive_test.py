@@ -83,6 +83,17 @@ class Outputs(WithArchives):
                     file.write(text)
                 self.assertEqual(tushar.open(sod).runs, [])
 
+    def test_says_where_a_global_is_no_number(self):
+        for text, sentence in (("# time\n0 1\n0.1 bad\n", r"KineticEnergy.dat:3: found 'bad', expected a number"),
+                               ("# time\n0 1\n\xff 2\n", r"KineticEnergy.dat:3: found '.+', expected a number"),
+                               ("0 1 2\n", r"KineticEnergy.dat' has 3 numbers in its first line, expected 2")):
+            with tempfile.TemporaryDirectory() as folder:
+                sod = fake_uda.make_sod(folder)
+                with open(os.path.join(sod, "KineticEnergy.dat"), "w", encoding="latin-1") as file:
+                    file.write(text)
+                with self.assertRaisesRegex(tushar.ArchiveError, sentence):
+                    tushar.open(sod).globals["KineticEnergy"]
+
     def test_says_which_file_cannot_be_read(self):
         with tempfile.TemporaryDirectory() as folder:
             sod = fake_uda.make_sod(folder)

@@ -98,6 +98,9 @@ class Globals(Mapping[str, Series]):
         except OSError as error:
             raise ArchiveError(f"cannot read '{self._files[name]}': {error}") from None
         columns = 1 + variable.components
+        if rows and len(rows[0]) != columns:
+            raise ArchiveError(f"'{self._files[name]}' has {len(rows[0])} numbers in its first line, expected "
+                               f"{columns}: the time and the values")
         table = np.array(rows, dtype=float).reshape(-1, columns)
         values = table[:, 1] if columns == 2 else table[:, 1:]
         return Series(name, variable.unit, variable.description, table[:, 0], values)
