@@ -68,6 +68,8 @@ class Outputs(WithArchives):
                                 (lambda: archive.globals["KinetcEnergy"], r"did you mean 'KineticEnergy'"),
                                 (lambda: archive["p.x"], r"outputs are selected by number: archive\[-1\]\['p.x'\]"),
                                 (lambda: archive[1.5], r"by whole numbers, found 1.5; archive.at\(1.5\)"),
+                                (lambda: archive.at(float("nan")), "found the time nan, expected a finite number"),
+                                (lambda: archive.at(float("inf")), "found the time inf, expected a finite number"),
                                 (lambda: archive[7], "no output 7: .* has 3, 0 to 2"),
                                 (lambda: archive.report, "there is no report .* sus --json report.json"),
                                 (lambda: archive.particles(), 'add <save label="p.particleID"/>'),

@@ -58,6 +58,12 @@ class Run(unittest.TestCase):
         for more in ({"ranks": 2}, {"threads": 2}, {"options": ["-layout", "2x1x1"]}):
             self.assertEqual(tushar.run(SOD, TUBE, **more).report["fingerprint"], first.report["fingerprint"])
 
+    def test_options_may_be_one_string(self):
+        run = tushar.run(SOD, TUBE, options="--layout 4x1x1 --nthreads 1")
+        self.assertEqual(run.report["layout"]["patches"], 4)
+        with self.assertRaisesRegex(tushar.CommandError, "found the options '--layout \"4x1': No closing quotation"):
+            tushar.run(SOD, TUBE, options='--layout "4x1')
+
     def test_a_second_run_into_a_folder_has_the_second_archive(self):
         for number in (0, 1):
             run = tushar.run(SOD, TUBE, output=self.folder)

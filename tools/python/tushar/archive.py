@@ -211,6 +211,8 @@ class Archive(Sequence[Snapshot]):
 
     def index_at(self, time: float) -> int:
         """The index of the output whose time is nearest to a time [s]."""
+        if not np.isfinite(time):
+            raise ArchiveError(f"found the time {time}, expected a finite number of seconds")
         if not self.times:
             raise ArchiveError(f"'{self.folder}' has no outputs yet")
         return int(np.argmin(np.abs(np.array(self.times) - time)))

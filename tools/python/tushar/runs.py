@@ -4,11 +4,12 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 import tempfile
 import weakref
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 from tushar.errors import BY_EXIT_CODE, CommandError, SusError
 from tushar.program import Path, command_of, find_sus
@@ -55,20 +56,20 @@ class Run:
 
 
 def run(scene: Path, sets: Optional[Mapping[str, Any]] = None, *, ranks: int = 1, threads: Optional[int] = None,
-        output: Optional[Path] = None, options: Sequence[str] = (), sus: Optional[Path] = None,
+        output: Optional[Path] = None, options: Union[str, Sequence[str]] = (), sus: Optional[Path] = None,
         timeout: Optional[float] = None) -> Run:
     """Runs a scene with overrides `sets`, path -> value: {"Grid/Level/Box/resolution": [200, 1, 1]}.
 
     The scene's path is relative to the current folder or to the root of the repository; the program is searched in
     `sus`, $SUS, the repository's build and the PATH. `threads` are per rank; None chooses a suitable number. The
     archive is written to the folder `output`, by default to a folder that is deleted with the run. `options` are
-    further arguments of sus. After `timeout` [s], the run is ended.
+    further arguments of sus, as a list or as one string. After `timeout` [s], the run is ended.
 
     Raises InputError (exit code 3), NumericalError (4), CommandError (2), Interrupted (5), otherwise SusError, with the
     messages of sus.
     """
     program, overrides = find_sus(sus), dict(sets or {})
-    words = [*options, *(["--nthreads", str(threads)] if threads else [])]
+    words = [*words_of(options), *(["--nthreads", str(threads)] if threads else [])]
     keeps = None if output else Temporary()
     folder = pathlib.Path(keeps.path if keeps else output or ".").resolve()
     folder.mkdir(parents=True, exist_ok=True)
@@ -116,6 +117,14 @@ def launcher(ranks: int) -> List[str]:
     if ranks < 1:
         raise CommandError(f"found ranks={ranks}, expected at least 1")
     return [] if ranks == 1 else ["mpirun", "-n", str(ranks)]
+
+
+def words_of(options: Union[str, Sequence[str]]) -> List[str]:
+    """The words of options that are a list or, as in a shell, one string."""
+    try:
+        return shlex.split(options) if isinstance(options, str) else list(options)
+    except ValueError as error:
+        raise CommandError(f"found the options '{options}': {error}") from None
 
 
 def error_of(code: int, errors: str, done: Run) -> SusError:
