@@ -169,7 +169,8 @@ class Coverage(unittest.TestCase):
                                       (("--jobs", "none"), 2, "found 'none', expected a whole number"),
                                       (("--set", "Time"), 2, "found 'Time', expected PATH=VALUE"),
                                       (("--sus", "no/such/sus"), 2, "'no/such/sus' is not a program"),
-                                      (("--markdown", "no/such/folder.md"), 1, "No such file or directory")):
+                                      (("--markdown", "no/such/folder.md"), 1,
+                                       "coverage: 'no/such/folder.md': No such file or directory")):
             with self.subTest(words):
                 ended, _, errors = self.run_tool(*words)
                 self.assertEqual(ended, code, errors)

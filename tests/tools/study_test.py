@@ -82,6 +82,9 @@ class Study(unittest.TestCase):
     def test_fails_with_a_sentence(self):
         for arguments, sentence in ((("sodd",), "'sodd' is neither a scene (.ups) nor a predefined study: sod"),
                                     ((), "nothing to run"),
+                                    (("nope.ups", "--vary", "resolution=20"), "study: there is no scene 'nope.ups'"),
+                                    (("ups/solid/two_discs.ups", "--vary", "cfl=.1"),
+                                     "--vary cfl=.1: ups/solid/two_discs.ups has no section with a <cfl>"),
                                     (("ups/mpm/sod.ups", "--error", "density.face.L1", "--vary", "resolution=20"),
                                      "there is no error 'density.face.L1': at 'face', available: particle, cell, "
                                      "node")):
@@ -90,6 +93,11 @@ class Study(unittest.TestCase):
             self.assertIn("study: ", done.stderr)
             self.assertIn(sentence, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
+            self.assertNotIn("<MPM>", done.stderr)
+
+    def test_a_folder_that_cannot_be_made_is_told(self):
+        done = study(self.folder.name, "ups/mpm/sod.ups", out="/proc/none")
+        self.assertEqual((done.returncode, done.stderr), (1, "study: '/proc/none': No such file or directory\n"))
 
 
 class Figures(unittest.TestCase):
@@ -102,6 +110,8 @@ class Figures(unittest.TestCase):
         self.assertEqual(SHORT["resolution"]("ups/mpm/lax_liu_3.ups", "50"), ["Grid/Level/Box/resolution=[50,50,1]"])
         self.assertEqual(SHORT["resolution"]("ups/mpm/sod.ups", "[7,5,3]"), ["Grid/Level/Box/resolution=[7,5,3]"])
         self.assertEqual(SHORT["cfl"]("ups/euler/sod.ups", ".4"), ["Euler/cfl=.4"])
+        self.assertEqual(SHORT["cfl"]("ups/heat/sine.ups", ".4"), ["Heat/cfl=.4"])
+        self.assertEqual(SHORT["cfl"]("ups/ice/sod.ups", ".4"), ["CFD/cfl=.4"])
         self.assertEqual(SHORT["cfl"]("ups/mpm/sod_conserving.ups", ".4"), ["MPM/conserving_gas_dynamics/cfl=.4"])
         self.assertEqual(SHORT["particles"]("ups/mpm/sod.ups", "4"),
                          [f"MaterialProperties/MPM/material/geom_object[{body}]/res=[4,1,1]" for body in (1, 2)])

@@ -52,6 +52,13 @@ class Interrupted(SusError):
 BY_EXIT_CODE = {2: CommandError, 3: InputError, 4: NumericalError, 5: Interrupted}
 
 
+def sentence_of(error: BaseException) -> str:
+    """What an error says; for a file, its name and what is wrong with it, without the number of the error."""
+    if isinstance(error, OSError) and error.filename and error.strerror:
+        return f"'{error.filename}': {error.strerror}"
+    return str(error)
+
+
 def check_name(kind: str, name: str, names: Iterable[str]) -> str:
     """Returns `name` if it is among `names`; otherwise raises ArchiveError with the most similar name and all
     others."""

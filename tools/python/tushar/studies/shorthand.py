@@ -4,7 +4,7 @@ import xml.etree.ElementTree as xml
 
 from tushar.program import scene_path
 
-CFL = ("MPM/gas_dynamics", "MPM/conserving_gas_dynamics", "Euler")
+CFL = ("MPM/gas_dynamics", "MPM/conserving_gas_dynamics", "Euler", "CFD", "Burgers", "Heat")
 
 
 def root_of(scene):
@@ -45,9 +45,12 @@ def particles(scene, value):
 
 
 def cfl(scene, value):
-    """Sets a Courant number in the section of the scene's method."""
+    """Sets a Courant number in the section of the scene's method; raises ValueError if there is no such section."""
     sections = [path for path in CFL if root_of(scene).find(path) is not None]
-    return [f"{path}/cfl={value}" for path in sections or CFL[:1]]
+    if not sections:
+        raise ValueError(f"{scene} has no section with a <cfl>, which would be one of {', '.join(CFL)}; "
+                         "Time/timestep_multiplier scales the time steps of any scene")
+    return [f"{path}/cfl={value}" for path in sections]
 
 
 def dt(scene, value):
