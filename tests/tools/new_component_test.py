@@ -90,6 +90,12 @@ class NewComponent(unittest.TestCase):
         self.assertEqual(lines, sorted(lines))
         self.assertEqual([line for line in after if "advection" not in line], before)
 
+    def test_registers_by_one_line_that_moves_no_other(self):
+        before = (ROOT / "components/CMakeLists.txt").read_text().splitlines()
+        after = (self.copy / "components/CMakeLists.txt").read_text().splitlines()
+        ours = ("component(advection)", "component(shallow_water)")
+        self.assertEqual([line for line in after if line not in ours], before)
+
 
 if __name__ == "__main__":
     unittest.main()
