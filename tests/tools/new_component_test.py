@@ -66,6 +66,12 @@ class NewComponent(unittest.TestCase):
         self.assertEqual(passed.returncode, 0, passed.stdout)
         self.assertIn("[  PASSED  ]", passed.stdout)
 
+    def test_the_tutorial_draws_the_archive_that_the_copy_writes(self):
+        page = (ROOT / "tools/manual_pages/component.md").read_text()
+        self.assertIn("tools/run ups/wave/wave.ups && tools/plot wave.uda\n", page)
+        scene = (self.copy / "ups/shallow_water/shallow_water.ups").read_text()
+        self.assertIn("<filebase>shallow_water.uda</filebase>", scene)
+
     def test_refuses_a_name_that_is_taken_or_is_none(self):
         before = sorted(self.copy.rglob("*"))
         for name, sentence in (("heat", "components/heat exists already"), ("9lives", "cannot be the name of a folder"),
