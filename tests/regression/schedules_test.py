@@ -5,6 +5,7 @@ others run.
 After a wanted change, and for a new scene: python3 tests/regression/schedules_test.py --write, and look at the
 difference.
 """
+import os
 import pathlib
 import subprocess
 import sys
@@ -34,9 +35,25 @@ class Schedules(unittest.TestCase):
             self.assertEqual((GOLDEN / name).read_text(), text, name)
 
 
+    def test_without_a_program_it_says_what_to_run_first(self):
+        done = subprocess.run([sys.executable, __file__, "--write"], env={**os.environ, "SUS": "/none/sus"},
+                              capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "schedules_test: there is no program '/none/sus'; first "
+                                                          "run cmake --preset dev && cmake --build --preset dev, or "
+                                                          "name another one: SUS=build/release/sus\n"))
+
+
+def write():
+    """Writes the golden files anew; ends the program with a sentence if there is no sus."""
+    if not os.access(SUS, os.X_OK):
+        sys.exit(f"schedules_test: there is no program '{SUS}'; first run cmake --preset dev && cmake --build --preset "
+                 "dev, or name another one: SUS=build/release/sus")
+    for name, text in schedules():
+        (GOLDEN / name).write_text(text)
+
+
 if __name__ == "__main__":
     if "--write" in sys.argv:
-        for name, text in schedules():
-            (GOLDEN / name).write_text(text)
+        write()
     else:
         unittest.main()
