@@ -10,7 +10,8 @@ from compiler import complaints
 from sus import ROOT
 
 FOLDER = pathlib.Path("components/mpm/solid/constitutive")
-MODEL, LINE = re.findall(r"```cpp\n(.*?)```", (ROOT / FOLDER / "README.md").read_text(), re.S)
+PAGE = (ROOT / FOLDER / "README.md").read_text()
+MODEL, LINE = re.findall(r"```cpp\n(.*?)```", PAGE, re.S)
 
 # name of the model: (text of the example: what stands there instead, sentence of the compiler)
 SLIPS = {
@@ -76,6 +77,10 @@ FLOW_SENTENCE = "capability::Hardening needs the public member `double hardening
 
 class Capabilities(unittest.TestCase):
     maxDiff = None
+
+    def test_the_page_promises_no_file_that_is_not_there(self):
+        self.assertFalse((ROOT / FOLDER / "blatz_ko.hpp").exists())
+        self.assertRegex(PAGE, r"only an example: the folder does not contain it\. Saved as `blatz_ko\.hpp`")
 
     def test_a_model_is_one_file_and_one_line(self):
         table = (ROOT / FOLDER / "all.hpp").read_text()
