@@ -104,7 +104,7 @@ def _points_on_line(panel: Any, output: Output, quantity: Quantity, axis: int) -
 def _exact(panel: Any, output: Output, label: str) -> None:
     table = output.snapshot.reference
     column = next((column for known, column, _ in GAS if known == label), words(label))
-    if "x" in table and column in table:
+    if "x" in table and column in table and column != "x":  # x is where the others are
         panel.plot(table["x"], table[column], "-", color="#1a202c", linewidth=1.2, label="exact")
 
 
