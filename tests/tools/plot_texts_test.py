@@ -6,6 +6,14 @@ from plot_test import WithArchives
 
 from tushar import Archive
 from tushar.figure import Figure
+from tushar.panels import words
+
+
+class Names(unittest.TestCase):
+    def test_are_labels_in_words_and_keep_abbreviations(self):
+        for label, name in (("p.particleID", "particle ID"), ("p.internalEnergy", "internal energy"),
+                            ("p.loadCurveID", "load curve ID"), ("p.velGrad", "vel grad"), ("p.x", "x")):
+            self.assertEqual(words(label), name)
 
 
 class Exact(WithArchives):

@@ -32,8 +32,15 @@ def axis_label(name: str, unit: str) -> str:
 
 
 def words(label: str) -> str:
-    """A label in words: `c.temperature` -> `temperature`, `p.internalEnergy` -> `internal energy`."""
-    return re.sub(r"(?<=[a-z])([A-Z])", lambda letter: " " + letter.group(1).lower(), label.split(".")[-1])
+    """A label in words: `c.temperature` -> `temperature`, `p.internalEnergy` -> `internal energy`, `p.particleID` ->
+    `particle ID`."""
+    return re.sub(r"(?<=[a-z])([A-Z]{2,}(?![a-z])|[A-Z])", lambda found: " " + _uncapitalized(found[1]),
+                  label.split(".")[-1])
+
+
+def _uncapitalized(letters: str) -> str:
+    """A capital in lower case; an abbreviation as it is."""
+    return letters if len(letters) > 1 else letters.lower()
 
 
 def name_of(output: Output, quantity: Quantity, on_line: bool = False) -> str:
