@@ -40,7 +40,8 @@ def choose(output: Output) -> Tuple[List[str], List[str]]:
     names = [variable.name for variable in saved]
     gas = [label for label, _, _ in GAS if label in names]
     if gas:
-        missing = [(label, name) for label, _, name in GAS if label not in gas] if dimension == 1 else []
+        is_gas = any(label != "p.velocity" for label in gas)  # solids have a velocity, too
+        missing = [(label, name) for label, _, name in GAS if label not in gas and dimension == 1 and is_gas]
         notes = [f'there is no {name}: the scene does not save it; add <save label="{label}"/> to DataArchiver'
                  for label, name in missing]
         return gas if dimension == 1 else gas[:1], notes
