@@ -57,6 +57,7 @@ def name_of(output: Output, quantity: Quantity, on_line: bool = False) -> str:
 def profile(panel: Any, output: Output, quantity: Quantity) -> None:
     """Draws values along the only remaining axis, with the exact solution if the archive has it."""
     axis = output.axes[0]
+    extent_of(output, quantity, output.values_of(quantity))
     if quantity.variable.centring == "particle":
         _points_on_line(panel, output, quantity, axis)
     else:
@@ -207,18 +208,30 @@ def colouring(output: Output, quantity: Quantity, values: Values) -> Dict[str, A
     return {"cmap": cmap, "norm": scale(low, high)}
 
 
-def bounds(output: Output, quantity: Quantity, values: Values) -> Tuple[float, float]:
-    """The smallest and the largest value in the range of the colour map."""
+def extent_of(output: Output, quantity: Quantity, values: Values) -> Tuple[float, float]:
+    """The limits of the view, and for those that it leaves open the smallest or largest value, symmetric about 0 for a
+    difference. Raises ArchiveError if all values are beyond a limit."""
     low, high = output.view.limits(quantity.label)
     known = values[np.isfinite(values)]
     if output.view.log:
         known = known[known > 0]
         if not len(known) and (low is None or high is None):
             raise ArchiveError(f"'{quantity.label}' has no values above 0, so a logarithmic scale is impossible")
-    least, most = (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
+    least, most = (float(known.min()), float(known.max())) if len(known) else (low or 0.0, high or 1.0)
     if output.other and quantity.is_scalar and low is None and high is None:
         least, most = -max(abs(least), abs(most)), max(abs(least), abs(most))
     least, most = least if low is None else low, most if high is None else high
+    if least > most and len(known):
+        first, _ = output.view.range or (None, None)
+        limit = f"ends at {most:g}" if first is None else f"begins at {least:g}"
+        raise ArchiveError(f"the range {limit}, but the values of '{quantity.label}' extend from {known.min():g} to "
+                           f"{known.max():g}")
+    return least, most
+
+
+def bounds(output: Output, quantity: Quantity, values: Values) -> Tuple[float, float]:
+    """The smallest and the largest value in the range of the colour map."""
+    least, most = extent_of(output, quantity, values)
     if most - least < 1e-9 * max(abs(least), abs(most)):  # a constant is not drawn as its rounding errors
         middle = (least + most) / 2
         least, most = middle - 0.05 * abs(middle), middle + 0.05 * abs(middle)

@@ -42,7 +42,8 @@ class View:
 
     def limits(self, label: str) -> Range:
         """The smallest and the largest value shown for a label; None if they follow from the values."""
-        return self.range or self.ranges.get(label, (None, None))
+        (low, high), (least, most) = self.range or (None, None), self.ranges.get(label, (None, None))
+        return least if low is None else low, most if high is None else high
 
 
 @dataclass(frozen=True)
