@@ -40,7 +40,7 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
                     values = output.values_of(quantity)
                 except ArchiveError:  # a start lacks what a step computes
                     continue
-                values = values[values > 0] if view.log else values
+                values = values[np.isfinite(values) & ((values > 0) | (not view.log))]
                 found.setdefault(quantity.label, []).extend([values.min(), values.max()] if len(values) else [])
     if not any(found.values()) and not view.log:
         raise ArchiveError(f"'{archive.folder}' contains no values of {', '.join(labels)}" +

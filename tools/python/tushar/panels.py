@@ -208,15 +208,31 @@ def colouring(output: Output, quantity: Quantity, values: Values) -> Dict[str, A
     return {"cmap": cmap, "norm": scale(low, high)}
 
 
+def drawable(output: Output, quantity: Quantity, values: Values) -> Values:
+    """The values that can be drawn: numbers and, on a logarithmic scale, above 0. Notes how many are not numbers.
+    Raises ArchiveError if none is left, except in a film with common ranges, whose other pictures have some."""
+    label, (low, high) = quantity.label, output.view.limits(quantity.label)
+    in_film = bool(output.view.ranges) and low is not None and high is not None
+    known = np.asarray(values[np.isfinite(values)])
+    if len(known) < values.size:
+        count = f"{values.size - len(known)} of {values.size} values of '{label}' are not numbers"
+        where = f"output {output.snapshot.index}: " if output.view.ranges else ""
+        if not len(known) and not in_film:
+            raise ArchiveError(f"{count}, so nothing can be drawn")
+        if where + count not in output.notes:
+            output.notes.append(where + count)
+    if output.view.log:
+        known = known[known > 0]
+        if not len(known) and not in_film:
+            raise ArchiveError(f"'{label}' has no values above 0, so a logarithmic scale is impossible")
+    return known
+
+
 def extent_of(output: Output, quantity: Quantity, values: Values) -> Tuple[float, float]:
     """The limits of the view, and for those that it leaves open the smallest or largest value, symmetric about 0 for a
     difference. Raises ArchiveError if all values are beyond a limit."""
     low, high = output.view.limits(quantity.label)
-    known = values[np.isfinite(values)]
-    if output.view.log:
-        known = known[known > 0]
-        if not len(known) and (low is None or high is None):
-            raise ArchiveError(f"'{quantity.label}' has no values above 0, so a logarithmic scale is impossible")
+    known = drawable(output, quantity, values)
     least, most = (float(known.min()), float(known.max())) if len(known) else (low or 0.0, high or 1.0)
     if output.other and quantity.is_scalar and low is None and high is None:
         least, most = -max(abs(least), abs(most)), max(abs(least), abs(most))

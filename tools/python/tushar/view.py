@@ -33,6 +33,10 @@ class View:
     def __post_init__(self) -> None:
         if self.log and self.other:
             raise ArchiveError("a difference has values below 0, so --log and --diff cannot be combined")
+        limit = min((limit for limit in self.range or () if limit is not None), default=1)
+        if self.log and limit <= 0:
+            raise ArchiveError(f"a logarithmic scale has no place for {limit:g}: with --log, the limits of --range "
+                               "must be above 0")
 
     def with_ranges(self, ranges: Dict[str, Range]) -> View:
         return dataclasses.replace(self, ranges=ranges)
@@ -214,14 +218,13 @@ class Output:
         return tuple(self.grid.lower + (np.array(fullest) + 0.5) * self.grid.spacing)
 
     def values_of(self, quantity: Quantity) -> Values:
-        """All values that a picture shows of a quantity."""
+        """All values that a picture shows of a quantity; some may be NaN or infinite."""
         axis = self.axes[0] if len(self.axes) == 1 else None
         if quantity.variable.centring == "particle":
             parts = [self.particles(quantity, name, axis)[1] for name in self.materials_with(quantity.variable)]
         else:
             parts = [self.field(quantity, owner, axis).ravel() for owner in self.owners(quantity)]
-        values = np.concatenate(parts)
-        return np.asarray(values[np.isfinite(values)])
+        return np.asarray(np.concatenate(parts))
 
 
 def shape_of(grid: Grid) -> str:
