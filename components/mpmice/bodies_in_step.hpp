@@ -20,6 +20,15 @@ struct BodiesInStep {
             .sweptBy = take(requiresNew(c::sweptBy<D>, 2)),
             .leaving = take(when(opensAtSides, requiresNew(c::leaving<D>, 2)))};
   }
+
+  /// Whether a cell is a hole in a body: it has little free volume, and no cell up to two cells away is mostly free.
+  bool isClosedPore(const Level& level, const Index<D>& cell) const {
+    if (!(newFree[cell] < narrowFreeVolume)) return false;
+    bool closed = true;
+    forEach<D>(level.clipCells(cellsAround<D>(cell, 2)),
+               [&](const Index<D>& at) { closed &= !(newFree[at] > smallFreeVolume); });
+    return closed;
+  }
 };
 
 /// What the gas of a cell gives to walls in a step, per cell volume.

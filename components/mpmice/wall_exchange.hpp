@@ -177,7 +177,7 @@ class WallExchange {
     if (up == 0) return;
     const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
     const bool isIntoHole = isHoleAtSide(receiver);
-    if (!isIntoHole && isClosedPore(receiver)) return;
+    if (!isIntoHole && step_.isClosedPore(level_, receiver)) return;
     std::optional<Gift<D>> gas = isHoleAtSide(donor) ? Gift<D>{cells_.contentOf(donor, 1 / roomBefore(donor))}
                                  : isFull(donor)     ? passedBy(donor, axis)
                                                      : givenBy(donor, receiver);
@@ -224,7 +224,7 @@ class WallExchange {
   void flowThroughSide(const Index<D>& cell, int axis, int side, const euler::MixtureViews<D, double>& held,
                        const euler::FaceMasses<D>& masses) const {
     const double out = followingOut(cell, axis, side);
-    if (out == 0 || (out < 0 && isClosedPore(cell)) || isHoleAtSide(cell)) return;
+    if (out == 0 || (out < 0 && step_.isClosedPore(level_, cell)) || isHoleAtSide(cell)) return;
     const bool full = isFull(cell);
     std::optional<Gift<D>> gas = out > 0 ? full ? passedBy(cell, axis) : givenBy(cell, cell) : std::nullopt;
     if (const auto own = out < 0 ? stateOf(cell, cell) : std::nullopt)
@@ -283,7 +283,7 @@ class WallExchange {
   }
   Passing passingAt(const Index<D>& cell) const {
     Passing volumes;
-    if (isClosedPore(cell)) return volumes;  // it receives nothing, so it has nothing to pass on
+    if (step_.isClosedPore(level_, cell)) return volumes;  // it receives nothing, so it has nothing to pass on
     forEachFollowing(cell, [&](int axis, const Index<D>& neighbour, double volume) {
       const auto d = static_cast<std::size_t>(axis);
       if (volume < 0)
@@ -377,15 +377,6 @@ class WallExchange {
     Parcel<D> mean;
     mean.add(sum, 1.0 / count);
     return mean;
-  }
-
-  /// Whether a cell is a hole in a body: it has little free volume, and no cell up to two cells away is mostly free.
-  bool isClosedPore(const Index<D>& cell) const {
-    if (!(step_.newFree[cell] < narrowFreeVolume)) return false;
-    bool closed = true;
-    forEach<D>(level_.clipCells(cellsAround<D>(cell, 2)),
-               [&](const Index<D>& at) { closed &= !(step_.newFree[at] > smallFreeVolume); });
-    return closed;
   }
 
   const Level& level_;

@@ -8,6 +8,7 @@
 #include "core/simulation/between_materials.hpp"
 #include "core/simulation/careful_steps.hpp"
 #include "core/simulation/level_limits.hpp"
+#include "core/simulation/needed_names.hpp"
 #include "core/simulation/refinement_marks.hpp"
 #include "core/tasks/reflux.hpp"
 #include "core/tasks/take_over.hpp"
@@ -257,15 +258,6 @@ Pruned mendsOf(const tasks::TaskList& list, const RegridSettings& regrid, const 
   return prune(mends.tasks(), wanted, false);
 }
 
-/// The variables that must exist after the start: those that a step needs, except saved ones that only steps compute.
-Names neededAtStart(const Pruned& step, const tasks::TaskList& initialize) {
-  const Names started = producedBy(initialize.tasks()), read = requiredOfState(step.kept);
-  Names needed;
-  for (const std::string& name : step.needed)
-    if (started.contains(name) || read.contains(name)) needed.insert(name);
-  return needed;
-}
-
 /// The tasks that find the materials to which particles move.
 Pruned movesOf(const tasks::TaskList& list) { return prune(list.tasks(), {std::string(nextMaterial.name)}, false); }
 
@@ -333,16 +325,17 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
   return wants;
 }
 
-void Phases::takeSaves(const std::vector<SaveRequest>& saves, const std::vector<std::unique_ptr<Analysis>>& analyses) {
+void Phases::takeSaves(const std::vector<SaveRequest>& saves, const std::vector<std::unique_ptr<Analysis>>& analyses,
+                       int levels) {
   for (auto problems : {problemsOf(saves), problemsOf(analyses)}) throwIfAny(std::move(problems));
   sortSaves(named(saves));
+  if (levels > 1) refuseSavedNodes(analyses);
 }
 
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid,
                      const std::optional<Location>& smallerSteps) {
-  takeSaves(saves, analyses);
-  if (grid.levels() > 1) refuseSavedNodes(analyses);
+  takeSaves(saves, analyses, grid.levels());
   prepareLevels(grid.levels(), regrid.refluxes, smallerSteps.has_value(), table);
   const Lists& lists = lists_;
   const Names stepped = namesOfSteps();
@@ -373,9 +366,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);
-  const Names continued = among({lasting_.begin(), lasting_.end()}, requiredByAll({&advance, &sums}));
-  const Names all = united({state_.begin(), state_.end()}, continued);
-  needed_at_restart_ = {all.begin(), all.end()};
+  needed_at_restart_ = neededAfterRestart(state_, lasting_, requiredByAll({&advance, &sums}));
   initialize = tasks::TaskGraph("initialize", std::move(init), grid, table);
   stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), grid, table);
   const Names needed = advance.needed;

@@ -88,8 +88,10 @@ class Phases {
   };
   /// Collects the tasks of the analysis modules, and what they add up over steps.
   void addAnalyses(const std::vector<std::unique_ptr<Analysis>>& analyses);
-  /// Sorts what is saved. Throws InputError if no task computes a saved or sampled label.
-  void takeSaves(const std::vector<SaveRequest>& saves, const std::vector<std::unique_ptr<Analysis>>& analyses);
+  /// Sorts what is saved. Throws InputError if no task computes a saved or sampled label, or if it cannot be saved on
+  /// several levels.
+  void takeSaves(const std::vector<SaveRequest>& saves, const std::vector<std::unique_ptr<Analysis>>& analyses,
+                 int levels);
   /// Names of the variables that exist after the start and after each step.
   tasks::Names namesOfSteps() const;
   /// The tasks for those sums over steps that are read `always` or `atEnd`; adds what they need to `atEnd`.
