@@ -36,6 +36,19 @@ class HeatAtFaces {
     }
     return heat;
   }
+  /// Calls `visit(cell)` for the cells of a box that may receive heat through a face.
+  template <class Visit>
+  void forEachIn(const Box& box, Visit&& visit) const {
+    std::vector<std::uint8_t> marks(static_cast<std::size_t>(box.extent(0)));
+    forEachRow<D>(box, [&](const Index<D>& first, int count) {
+      markRow(first, count, marks.data());
+      Index<D> cell = first;
+      for (int i = 0; i < count; ++i, ++cell[0])
+        if (marks[i] != 0 && mayReceive(cell)) visit(cell);
+    });
+  }
+
+ private:
   /// Whether anything may pass through a face of a cell.
   bool mayReceive(const Index<D>& cell) const {
     bool may = false;
@@ -43,8 +56,26 @@ class HeatAtFaces {
       for (const int side : {0, 1}) may = may || mayPass(cell, d, side);
     return may;
   }
-
- private:
+  /// Marks the cells of a row that bodies fill by more than this fraction, or beside which there is one.
+  void markRow(const Index<D>& first, int count, std::uint8_t* marks) const {
+    const double most = settings_.convection ? 1 : 0.5;
+    Index<D> last = first;
+    last[0] += count - 1;
+    const auto add = [&](const double* free, std::uint8_t* to, int cells) {
+#pragma GCC ivdep
+      for (int i = 0; i < cells; ++i) to[i] = static_cast<std::uint8_t>(to[i] | static_cast<int>(free[i] < most));
+    };
+    std::fill_n(marks, count, std::uint8_t{0});
+    add(&gas_.free[first], marks, count);
+    for (const int side : {0, 1}) {
+      const Index<D>& end = side == 0 ? first : last;
+      if (isInGrid(beside(end, 0, side), 0))
+        add(&gas_.free[beside(end, 0, side)], side == 0 ? marks : marks + count - 1, 1);
+      add(&gas_.free[first] + (side == 0 ? 0 : 1), side == 0 ? marks + 1 : marks, count - 1);
+      for (int d = 1; d < D; ++d)
+        if (isInGrid(beside(first, d, side), d)) add(&gas_.free[beside(first, d, side)], marks, count);
+    }
+  }
   static Index<D> beside(const Index<D>& cell, int axis, int side) {
     return side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis);
   }
@@ -161,8 +192,7 @@ void exchangeHeatAtFaces(const Patch& patch, const std::vector<mpm::solid::Mater
   for (const CellView<double>& one : toGases.ofGas) one.fill(0);
   const WarmCells<D, Most, WarmGas<D, const double>> cells(materials, settings, gas, bodies);
   const HeatAtFaces<D, Most, WarmGas<D, const double>> faces(patch.level(), settings, gas, cells, dt);
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!faces.mayReceive(cell)) return;
+  faces.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     const auto heat = faces.received(cell);
     for (std::size_t m = 0; m < toBodies.size(); ++m) toBodies[m].ofBody[cell] = heat[m];
     for (std::size_t k = 0; k < toGases.ofGas.size(); ++k)
