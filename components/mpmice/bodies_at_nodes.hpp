@@ -3,6 +3,7 @@
 #include "components/mpm/solid/transfer/node_record.hpp"
 #include "components/mpmice/box_images.hpp"
 #include "components/mpmice/labels.hpp"
+#include "components/mpmice/settings.hpp"
 
 namespace tushar::mpmice {
 

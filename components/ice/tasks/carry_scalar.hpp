@@ -82,32 +82,57 @@ class ScalarAtFaces {
   using Faces = std::array<std::array<double, 2>, D>;
 
   ScalarAtFaces(const Level& level, const ScalarBefore<D>& before, double dt, bool hasSlopes, const Box& block)
-      : level_(level), before_(before), dt_(dt), hasSlopes_(hasSlopes), box_(level.clipCells(block.grown(1, D))) {
+      : level_(level),
+        before_(before),
+        dt_(dt),
+        hasSlopes_(hasSlopes),
+        box_(level.clipCells(block.grown(1, D))),
+        known_(level.clipCells(box_.grown(1, D))) {
     values_.resize(box_.size());
-    forEach<D>(box_, [&](const Index<D>& cell) { values_[offset(cell)] = facesOf(cell); });
+    flows_.resize(box_.size());
+    forEachRow<D>(box_, [&](const Index<D>& first, int count) {
+      std::size_t at = offset(first);
+      Index<D> cell = first;
+      for (int i = 0; i < count; ++i, ++cell[0], ++at) {
+        values_[at] = facesOf(cell);
+        flows_[at] = static_cast<std::uint8_t>(before_.canFlow(cell));
+      }
+    });
+    for (int d = 1; d < D; ++d) stride_[d] = stride_[d - 1] * box_.extent(d - 1);
   }
   /// f of the gas that leaves a cell through its lower (0) or upper (1) face.
   double at(const Index<D>& cell, int axis, int side) const { return values_[offset(cell)][axis][side]; }
   bool has(const Index<D>& cell) const { return box_.contains(cell); }
-
- private:
+  /// Whether all neighbours of a cell are in the box.
+  bool hasAround(const Index<D>& cell) const {
+    bool has = true;
+    for (int d = 0; d < D; ++d) has &= cell[d] > box_.lower[d] && cell[d] < box_.upper[d] - 1;
+    return has;
+  }
   std::size_t offset(const Index<D>& cell) const {
     std::size_t at = 0;
     for (int d = D - 1; d >= 0; --d) at = at * box_.extent(d) + (cell[d] - box_.lower[d]);
     return at;
   }
+  /// f at a face inside the box, of the cell at this offset or of its neighbour; null if their gas cannot flow.
+  const double* between(std::size_t cell, int axis, int side, bool leaves) const {
+    const std::size_t next = side == 0 ? cell - stride_[axis] : cell + stride_[axis];
+    const std::size_t donor = leaves ? cell : next;
+    return flows_[donor] != 0 ? &values_[donor][axis][leaves ? side : 1 - side] : nullptr;
+  }
+
+ private:
   Faces facesOf(const Index<D>& cell) const {
     const double f = before_.value(cell);
     Faces change{};
     double least = 0, most = 0;
     if (hasSlopes_ && !before_.isFlat(cell)) {
-      const Box known = level_.clipCells(box_.grown(1, D));
       double ahead = 0;
       std::array<double, D> slopes{};
       for (int d = 0; d < D; ++d) {
         const Index<D> lower = cell - Index<D>::unit(d), upper = cell + Index<D>::unit(d);
-        const double fall = known.contains(lower) ? f - before_.value(lower) : 0;
-        const double rise = known.contains(upper) ? before_.value(upper) - f : 0;
+        const double fall = known_.contains(lower) ? f - before_.value(lower) : 0;
+        const double rise = known_.contains(upper) ? before_.value(upper) - f : 0;
         slopes[d] = VanLeer::slope(fall, rise);
         least = std::min({least, -fall, rise});
         most = std::max({most, -fall, rise});
@@ -147,8 +172,10 @@ class ScalarAtFaces {
   const ScalarBefore<D>& before_;
   double dt_;
   bool hasSlopes_;
-  Box box_;
+  Box box_, known_;
   std::vector<Faces> values_;
+  std::vector<std::uint8_t> flows_;       ///< whether the gas of a cell can flow
+  std::array<std::size_t, D> stride_{1};  ///< distances between neighbours along each axis in `values_`
 };
 
 /// The flux of a scalar through the faces of cells [kg/(m² s)]. If the cell from which gas flows, the donor, had no gas
@@ -181,6 +208,24 @@ class ScalarFlux {
     if (diffusivity == 0 || !given) return mass * f;
     const double rise = (side == 0 ? 2 : -2) * (before_.value(cell) - *given);
     return mass * f - before_.density[cell] * diffusivity * perWidth * rise;
+  }
+
+  /// The sum over axes of what leaves a cell minus what enters it, per cell volume. `at` is the offset of the cell in
+  /// the values at faces, `isInside` whether all its neighbours are in their box.
+  double outOf(const Index<D>& cell, std::size_t at, bool isInside) const {
+    const bool isPlain = isInside && scalar_.settings().diffusivity == 0;
+    const Vec<D>&below = before_.below[cell], &above = before_.above[cell];
+    double sum = 0;
+    for (int d = 0; d < D; ++d) {
+      const double *lower = nullptr, *upper = nullptr;
+      if (isPlain) {
+        lower = faces_.between(at, d, 0, below[d] < 0);
+        upper = faces_.between(at, d, 1, above[d] > 0);
+      }
+      const double out = upper ? above[d] * *upper : (*this)(cell, d, 1);
+      sum += level_.inverseSpacing(d) * (out - (lower ? below[d] * *lower : (*this)(cell, d, 0)));
+    }
+    return sum;
   }
 
  private:
@@ -241,10 +286,11 @@ void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::G
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     const ScalarAtFaces<D> faces(level, before, dt, hasSlopes, block);
     const ScalarFlux<D> flux(level, gas, *scalar, before, faces, time);
-    forEach<D>(block, [&](const Index<D>& cell) {
-      double change = 0;
-      for (int d = 0; d < D; ++d) change += level.inverseSpacing(d) * (flux(cell, d, 1) - flux(cell, d, 0));
-      held[cell] = before.held[cell] - dt * change;
+    forEachRow<D>(block, [&](const Index<D>& first, int count) {
+      std::size_t at = faces.offset(first);
+      Index<D> cell = first;
+      for (int i = 0; i < count; ++i, ++cell[0], ++at)
+        held[cell] = before.held[cell] - dt * flux.outOf(cell, at, faces.hasAround(cell));
     });
     for (int d = 0; d < D; ++d) {
       Box lower = block;
