@@ -2,7 +2,8 @@
 """The commands of the tutorials run and print what the tutorials show.
 
 A block `sh` is run, `sh exits 3` ends with that code, `sh not run: why` is left out. A block `text` after it has lines
-of what it prints, in their order: … stands for anything, ⟨same⟩ for something that is the same each time.
+of what it prints, in their order: … stands for anything, ⟨same⟩ (or another name) for something that is the same each
+time.
 """
 import os
 import pathlib
@@ -31,14 +32,16 @@ def blocks(page):
 
 def line_pattern(line):
     """Returns a regular expression for a line of a `text` block, with anything after it on the same line."""
-    parts = re.split(r"(…|⟨same⟩)", line.strip())
-    meaning = {"…": ".*", "⟨same⟩": r"(?P<same>\S+)"}
-    return re.compile("".join(meaning.get(part) or r"\s+".join(map(re.escape, part.split(" "))) for part in parts))
+    def meaning(part):
+        if part.startswith("⟨"):
+            return rf"(?P<{part[1:-1]}>\S+)"
+        return ".*" if part == "…" else r"\s+".join(map(re.escape, part.split(" ")))
+    return re.compile("".join(map(meaning, re.split(r"(…|⟨\w+⟩)", line.strip()))))
 
 
 def what_is_missing(expected, printed):
     """Returns the first line of `expected` that is not in `printed` after its predecessors; None if all are."""
-    lines, at, same = printed.splitlines(), 0, None
+    lines, at, same = printed.splitlines(), 0, {}
     for line in filter(str.strip, expected.splitlines()):
         pattern = line_pattern(line)
         while True:
@@ -46,10 +49,9 @@ def what_is_missing(expected, printed):
                 return line
             found = pattern.search(lines[at])
             at += 1
-            if found and "same" in pattern.groupindex:
-                if same not in (None, found["same"]):
-                    return f"{line} as before, {same}, but {found['same']}"
-                same = found["same"]
+            for name, value in (found.groupdict() if found else {}).items():
+                if same.setdefault(name, value) != value:
+                    return f"{line} as before, {same[name]}, but {value}"
             if found:
                 break
     return None
@@ -122,6 +124,8 @@ class Check(unittest.TestCase):
     def test_what_must_be_the_same_is_compared(self):
         self.assertIsNone(what_is_missing("f ⟨same⟩\nf ⟨same⟩", "f 1\nf 1\n"))
         self.assertIn("but 2", what_is_missing("f ⟨same⟩\nf ⟨same⟩", "f 1\nf 2\n"))
+        self.assertIsNone(what_is_missing("f ⟨same⟩\nf ⟨other⟩\nf ⟨same⟩", "f 1\nf 2\nf 1\n"))
+        self.assertIn("but 3", what_is_missing("f ⟨same⟩\nf ⟨other⟩\nf ⟨other⟩", "f 1\nf 2\nf 3\n"))
 
 
 if __name__ == "__main__":
