@@ -37,8 +37,9 @@ class CellFriction {
         const double wall = faces.wall(side);
         const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(a);
         if (!(wall > 0) || !(massAt(face, a) > 0)) continue;
-        drag_[a][side] = viscosity * wall * along * perWidth * perWidth / (0.5 * layerOf(free)) +
-                         0.25 * coefficientAt(face, a) * wall * along;
+        const double viscous = viscosity * wall * along * perWidth * perWidth / (0.5 * layerOf(free));
+        drag_[a][side] = viscous + 0.25 * coefficientAt(face, a) * wall * along;
+        viscous_ += viscous;
         all_ += drag_[a][side];
       }
     }
@@ -46,6 +47,8 @@ class CellFriction {
 
   /// Sum of the drag of all walls [Pa s/m²]; 0 without walls.
   double all() const { return all_; }
+  /// The part of it that is due to viscosity.
+  double viscous() const { return viscous_; }
   /// The fraction of the friction that acts at a face.
   double share(int axis, int side) const { return drag_[axis][side] > 0 ? drag_[axis][side] / all_ : 0; }
   /// The component of a velocity along the walls: without its component into an oblique wall or, between several walls,
@@ -60,7 +63,7 @@ class CellFriction {
   Vec<D> normal_;
   double slip_ = 0;
   std::array<std::array<double, 2>, D> drag_{};
-  double all_ = 0;
+  double all_ = 0, viscous_ = 0;
 };
 
 /// Computes the drag of the walls of a cell with gas, and the fraction of it at each face.
@@ -89,7 +92,9 @@ struct FrictionOfStep {
   const BodiesAtNodes<D>& bodies;
   double dt;
 
-  /// The friction mu A dv / d of a cell, limited so that gas and walls do not pass a common velocity within the step.
+  /// The friction of a cell. That of viscosity is limited so that gas and walls do not pass a common velocity within
+  /// the step. Drag by coefficients, which may be any, is limited further, so that they do not pass it together with
+  /// all other cells that push the same nodes, either, or whose gas is merged with that of the cell.
   Vec<D> on(const Index<D>& cell) const {
     const CellFriction<D> weights = frictionWeights<D>(level, settings, cells, space, bodies, cell);
     if (!(weights.all() > 0)) return Vec<D>::Zero();
@@ -105,11 +110,18 @@ struct FrictionOfStep {
       }
     if (settings.areRigid) ofBodies = 0;
     const Vec<D> gas = cells.held.momentum[cell] / cells.held.density[cell];
-    const double perMass = 1 / massAbout(cell) + ofBodies * level.cellVolume();
-    return std::min(weights.all(), 1 / (dt * perMass)) * weights.alongWalls(walls - gas);
+    ofBodies *= level.cellVolume();
+    const double viscous = std::min(weights.viscous(), 1 / (dt * (1 / massAbout(cell) + ofBodies)));
+    const double most = 1 / (dt * (1 / cells.held.density[cell] + facesOfNode * ofBodies));
+    const double drag = std::min(weights.all() - weights.viscous(), std::max(0.0, most - viscous));
+    return (viscous + drag) * weights.alongWalls(walls - gas);
   }
 
  private:
+  /// The largest number of faces whose drag a node takes: those of the cells around it along each axis, in three
+  /// layers.
+  static constexpr double facesOfNode = D * 3 * (1 << (D - 1));
+
   /// The mass, per cell volume, on which the friction in a cell acts [kg/m³]. A small cell is merged with one of the
   /// larger cells around it at the end of the step, so that the least of their masses counts, too. It does not if it is
   /// much greater than that of the cell: merged cells have the same density, so they were not merged before, and the

@@ -366,7 +366,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);
-  needed_at_restart_ = neededAfterRestart(state_, lasting_, requiredByAll({&advance, &sums}));
+  needed_at_restart_ = neededAfterRestart(state_, lasting_, requiredByAll({&advance}));
   initialize = tasks::TaskGraph("initialize", std::move(init), grid, table);
   stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), grid, table);
   const Names needed = advance.needed;

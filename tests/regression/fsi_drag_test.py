@@ -63,6 +63,29 @@ class Drag(SceneTest):
             else:
                 self.assertLess(abs(max(row) / (.01 * math.exp(-k * .4 / 4)) - 1), .02, row)
 
+    def test_of_an_oblique_wall_does_not_turn_the_wind(self):
+        """Small cells along a disc at rest share the gas of their neighbours. In a step so short, only drag acts."""
+        text = changed(DISC, (fsi.RESTING, fsi.RESTING.replace("1,0.618", "0,0")), ("[0.5,0.5,", "[0.51,0.49,"))
+        state = last_state(self.scene(text), "c.velocity", "c.freeVolume", sets=(
+            "SimulationComponent/@type=rmpmice", "Time/max_Timesteps=1", *fsi.resolution("carried_disc", 25),
+            "Time/delt_max=1e-6", "MaterialProperties/exchange_properties/exchange_coefficients/momentum=[9e8]"))
+        along = [(u + .618 * v) / (1 + .618 ** 2) for u, v, free in
+                 zip(*(state[f"c.velocity.{a} [m/s]"] for a in "xy"), state[fsi.FREE]) if free > .2]
+        self.assertLess(min(along), .1)
+        self.assertGreater(min(along), -1e-3)
+
+    def test_does_not_throw_light_bodies(self):
+        """A node belongs to several faces, all of which drag: a thin plate as dense as the gas must not pass it."""
+        for rows in (1, 4):
+            light = changed(plate(1e8, 1.2), ("<density>1e6<", "<density>1<"), ("<res>[4,4,1]", "<res>[2,5,1]"),
+                            ('label="plate"><min>[0,0,0]', 'label="plate"><min>[0,.5,0]'),
+                            ("<outputInitTimestep/>", '<outputInitTimestep/><save label="p.velocity"/>'))
+            sets = ("Time/max_Timesteps=1", f"Grid/Level/Box/resolution=[8,50,{rows}]",
+                    f"Grid/Level/Box/upper=[1,1,{.02 * rows}]")
+            found = last_state(self.scene(light), "p.velocity", sets=sets)["p.velocity.x [m/s]"]
+            self.assertGreater(min(found), 0)
+            self.assertLessEqual(max(found), 1)
+
     def test_conserves_momentum_and_energy(self):
         for k in (5, 1e3, 1e8):
             done = globals_of(self.scene(RUNS_PAST), "TotalMomentum", "GasImpulseOnBodies", "GasEnergy",

@@ -258,17 +258,6 @@ class WrongScenes(RefusedSceneTest):
         self.assert_refused(PLUG.replace("<heat>[0]", "<heat>[1e15]"),
                             "missing tag <specific_heat>: the body exchanges heat")
 
-    def test_bodies_have_walls(self):
-        self.assert_refused(PLUG.replace("<momentum>[1e15]", "<momentum>[1e3]"),
-                            "1000 between body 0 and the gas is not available: bodies are walls")
-
-    def test_an_exchange_that_stops_gas_within_a_cell_is_a_wall(self):
-        # Ten times rho c / h = 1.4 2^(1/2) / .01, of the gas of 2 Pa.
-        for exchange, accepted in (("1979", False), ("1981", True)):
-            text = PLUG.replace("<momentum>[1e15]", f"<momentum>[{exchange}]")
-            done = run(self.scene(text), options=("--check",))
-            self.assertEqual(done.code, 0 if accepted else 3, done.err)
-
     def test_slip_by_the_mean_free_path(self):
         start, end = "<exchange_properties>", "<Model type='slip'><useSlipCoeffs>{}</useSlipCoeffs></Model>"
         self.assert_refused(PLUG.replace(start, start + end.format("true")),

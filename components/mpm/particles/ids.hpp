@@ -24,11 +24,11 @@ ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Lo
   return level.cellNumber(cell) * idsOfCell + k;
 }
 
-/// The id of a new particle; it depends only on the id and position of its parent, so that it is the same on every
-/// layout.
-inline ParticleId derivedId(ParticleId parent, double place) {
+/// The id of a new particle; it depends only on the id of its parent and on its position along the `axis` of the split,
+/// so that it is the same on every layout, and another one for a split at the same position along another axis.
+inline ParticleId derivedId(ParticleId parent, double place, int axis) {
   constexpr ParticleId derived = ParticleId{1} << 63;
-  return mixed(parent ^ mixed(std::bit_cast<std::uint64_t>(place))) | derived;
+  return mixed(parent ^ mixed(std::bit_cast<std::uint64_t>(place) + static_cast<std::uint64_t>(axis))) | derived;
 }
 
 }  // namespace tushar::mpm

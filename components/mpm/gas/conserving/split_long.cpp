@@ -12,7 +12,7 @@ GasBox<D> half(const GasBox<D>& whole, int axis, int side) {
   const double offset = 0.25 * side * whole.edges[axis];
   const Vec<D> slip = offset * whole.modes.col(gradientColumn(axis));
   const double spare = whole.affineEnergy - 0.5 * slip.squaredNorm();
-  if (side > 0) part.id = derivedId(whole.id, whole.x[axis]);
+  if (side > 0) part.id = derivedId(whole.id, whole.x[axis], axis);
   part.x[axis] += offset;
   part.edges[axis] *= 0.5;
   part.mass *= 0.5;

@@ -97,7 +97,7 @@ void split(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, int minParti
     pieces[k].mass /= 2;
     pieces[k].volume /= 2;
     Piece<D> child = pieces[k];
-    child.id = derivedId(pieces[k].id, pieces[k].x[axis]);
+    child.id = derivedId(pieces[k].id, pieces[k].x[axis], axis);
     pieces[k].x[axis] = middle - offset;
     child.x[axis] = middle + offset;
     pieces.push_back(child);
@@ -143,7 +143,7 @@ void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& 
   double internal = 0;
   forEach<D>(places, [&](const Index<D>& k) {
     Piece<D> piece;
-    piece.id = derivedId(parent + pieces.size(), place);
+    piece.id = derivedId(parent + pieces.size(), place, 0);
     for (int d = 0; d < D; ++d) piece.x[d] = cell.lower[d] + (k[d] + 0.5) / alongAxis * cell.spacing[d];
     piece.volume = before.volume / static_cast<double>(places.size());
     const double density = before.density() + cell.densitySlope.dot(piece.x - middle);
