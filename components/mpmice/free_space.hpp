@@ -116,21 +116,22 @@ class FreeSpace {
   /// Unit vector into the body: the direction of the gradient of 1 - free volume over the surrounding cells, with the
   /// weights 1 2 1 along the axes perpendicular to each derivative; 0 if the gradient vanishes. Source: D. L. Youngs,
   /// AWRE report 44/92/35 (1984).
-  Vec<D> normal(const Index<D>& cell) const {
-    Vec<D> gradient = differences(cell);
-    for (int d = 0; d < D; ++d) gradient[d] *= level_->inverseSpacing(d);
-    const double length = gradient.norm();
-    return length > 0 ? Vec<D>(gradient / length) : gradient;
-  }
-  /// The degree to which the walls of a cell, at these faces, are those of one oblique plane along which gas slips:
-  /// that of facingOneWay. It is less if the neighbours hardly tell where the body of the cell continues, as for a
-  /// grain smaller than the cell, whose normal would be that of round-off.
-  double slip(const Index<D>& cell, const std::array<OpenFaces, D>& faces) const {
+  Vec<D> normal(const Index<D>& cell) const { return unitAlong(differences(cell)); }
+  /// The surface of the bodies in a cell: its normal, and the degree to which the walls of the cell, at these faces,
+  /// are those of one oblique plane along which gas slips: that of facingOneWay. It is less if the neighbours hardly
+  /// tell where the body of the cell continues, as for a grain smaller than the cell, whose normal would be that of
+  /// round-off.
+  struct Surface {
+    Vec<D> normal = Vec<D>::Zero();
+    double slip = 0;
+  };
+  Surface surface(const Index<D>& cell, const std::array<OpenFaces, D>& faces) const {
     constexpr double ofPlanes =
         0.25;  // the least difference per cell, in relation to what a thick body fills of a cell
-    const double filled = filledOf(cell), change = differences(cell).norm();
-    const double known = filled > 0 ? std::min(1.0, change / (ofPlanes * filled)) : 1;
-    return known * facingOneWay<D>(*level_, faces);
+    const Vec<D> change = differences(cell);
+    const double filled = filledOf(cell);
+    const double known = filled > 0 ? std::min(1.0, change.norm() / (ofPlanes * filled)) : 1;
+    return {unitAlong(change), known * facingOneWay<D>(*level_, faces)};
   }
 
  private:
@@ -138,6 +139,12 @@ class FreeSpace {
   double filledOf(const Index<D>& cell) const {
     const double filled = 1 - cells_.free[cell];
     return filled > offRoundShares ? filled : 0;
+  }
+  /// The unit vector along a gradient with these differences per cell; 0 if there are none.
+  Vec<D> unitAlong(Vec<D> gradient) const {
+    for (int d = 0; d < D; ++d) gradient[d] *= level_->inverseSpacing(d);
+    const double length = gradient.norm();
+    return length > 0 ? Vec<D>(gradient / length) : gradient;
   }
   /// Differences of the filled fraction per cell along each axis, with the weights of normal.
   Vec<D> differences(const Index<D>& cell) const {

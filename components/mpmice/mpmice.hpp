@@ -53,7 +53,8 @@ class GasAround : public mpm::solid::Surroundings {
   template <int Most>
   void scheduleExchange(TaskList& tasks, const Materials& materials) const;
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
-  bool hasFriction() const { return settings_.hasFriction(); }
+  /// Whether walls slow the gas along them. In one dimension, nothing is along a wall.
+  bool hasFriction() const { return D > 1 && settings_.hasFriction(); }
   /// Whether the friction depends on the state of a cell.
   bool variesFriction() const {
     return hasFriction() && (settings_.diffusion.varies() || (settings_.drag.acts() && !settings_.gases.empty()));

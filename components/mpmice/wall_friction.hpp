@@ -24,14 +24,14 @@ class CellFriction {
   /// `coefficientAt(face, axis)` is their coefficient of momentum exchange with the gas of the cell [kg/(m³ s)].
   template <class MassAt, class CoefficientAt>
   CellFriction(const Level& level, const FreeSpace<D>& space, const Index<D>& cell, double free, double viscosity,
-               MassAt&& massAt, CoefficientAt&& coefficientAt)
-      : normal_(space.normal(cell)) {
+               MassAt&& massAt, CoefficientAt&& coefficientAt) {
     std::array<OpenFaces, D> all;
     for (int a = 0; a < D; ++a) all[a] = space.faces(cell, a);
-    slip_ = space.slip(cell, all);
+    surface_ = space.surface(cell, all);
+    const double slip = surface_.slip;
     for (int a = 0; a < D; ++a) {
       const OpenFaces& faces = all[a];
-      const double along = slip_ * std::abs(normal_[a]) + (1 - slip_);
+      const double along = slip * std::abs(surface_.normal[a]) + (1 - slip);
       const double perWidth = level.inverseSpacing(a);
       for (int side = 0; side < 2; ++side) {
         const double wall = faces.wall(side);
@@ -54,14 +54,13 @@ class CellFriction {
   /// The component of a velocity along the walls: without its component into an oblique wall or, between several walls,
   /// into each of them.
   Vec<D> alongWalls(const Vec<D>& velocity) const {
-    Vec<D> along = velocity - slip_ * velocity.dot(normal_) * normal_;
-    for (int a = 0; a < D; ++a) along[a] -= (1 - slip_) * (share(a, 0) + share(a, 1)) * velocity[a];
+    Vec<D> along = velocity - surface_.slip * velocity.dot(surface_.normal) * surface_.normal;
+    for (int a = 0; a < D; ++a) along[a] -= (1 - surface_.slip) * (share(a, 0) + share(a, 1)) * velocity[a];
     return along;
   }
 
  private:
-  Vec<D> normal_;
-  double slip_ = 0;
+  typename FreeSpace<D>::Surface surface_;
   std::array<std::array<double, 2>, D> drag_{};
   double all_ = 0, viscous_ = 0;
 };

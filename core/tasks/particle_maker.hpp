@@ -28,7 +28,7 @@ class ParticleMaker {
   explicit ParticleMaker(std::size_t accesses) : columns_(accesses) {}
 
   /// Adds a particle in a cell of the patch; each created label then needs one more value. No other particle of the
-  /// material may have the same `id`, on any patch: outputs and checkpoints refuse them with a TaskError.
+  /// material may have the same `id`, on any patch: outputs and fingerprints refuse them with a TaskError.
   template <int D>
   void add(const Index<D>& cell, ParticleId id) {
     Index3 wide;

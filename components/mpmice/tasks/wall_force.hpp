@@ -21,10 +21,9 @@ struct WallPressures {
 template <int D>
 class CellWalls {
  public:
-  CellWalls(const FreeSpace<D>& space, const Index<D>& cell, const euler::State<D>& w)
-      : normal_(space.normal(cell)), w_(w) {
+  CellWalls(const FreeSpace<D>& space, const Index<D>& cell, const euler::State<D>& w) : w_(w) {
     for (int d = 0; d < D; ++d) faces_[d] = space.faces(cell, d);
-    slip_ = space.slip(cell, faces_);
+    surface_ = space.surface(cell, faces_);
   }
   bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
   /// The velocities of the walls at the lower and upper faces along each axis [m/s]; undefined where there is none.
@@ -46,14 +45,14 @@ class CellWalls {
         others[count++] = {&own, part};
       }
     const double c2 = gas.soundSpeedSquared(w_[euler::kDensity], w_[euler::kPressure<D>]);
-    slip_ *= c2 / (c2 + 16 * apart);
+    surface_.slip *= c2 / (c2 + 16 * apart);
   }
   /// Speed at which the gas approaches a wall [m/s].
   double closing(const Vec<D>& wallVelocity, int axis, int side) const {
     Vec<D> relative;
     for (int d = 0; d < D; ++d) relative[d] = w_[euler::kVelocity(d)] - wallVelocity[d];
     const double outward = side == 0 ? -relative[axis] : relative[axis];
-    return slip_ * relative.dot(normal_) + (1 - slip_) * outward;
+    return surface_.slip * relative.dot(surface_.normal) + (1 - surface_.slip) * outward;
   }
   /// The pressure on a wall [Pa]. `blowing` is the speed of new gas that leaves the wall; it adds to the speed at which
   /// the gas approaches.
@@ -62,10 +61,9 @@ class CellWalls {
   }
 
  private:
-  Vec<D> normal_;
   euler::State<D> w_;
   std::array<OpenFaces, D> faces_;
-  double slip_ = 0;
+  typename FreeSpace<D>::Surface surface_;
 };
 
 /// Views of the new gas that leaves burning walls; its speed and recoil are 0 at other walls.
