@@ -57,6 +57,21 @@ class Outputs(unittest.TestCase):
             few, many = reports
             self.assertLess(many["memory"]["peak"] - few["memory"]["peak"], GROWTH, scene)
 
+    def test_what_no_later_step_needs_has_a_fingerprint_of_its_own(self):
+        """Scalars that tracers carry change nothing else."""
+        scene = "ups/ice/tracers.ups"
+        values = re.findall("<initialValue>(.*?)</initialValue>", (ROOT / scene).read_text())
+        reports = []
+        for changed in ("", "1"):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "scene.ups")
+                path.write_text((ROOT / scene).read_text().replace("<initialValue>", f"<initialValue>{changed}"))
+                reports.append(run(path, "Time/max_Timesteps=3").report)
+        self.assertTrue(values)
+        self.assertEqual(*(report["fingerprint"] for report in reports))
+        self.assertNotEqual(*(report["fingerprint_of_others"] for report in reports))
+        self.assertNotIn("fingerprint_of_others", run("ups/mpm/vortex.ups", "Time/max_Timesteps=3").report)
+
     def test_the_fingerprint_of_a_scene_without_state_covers_what_is_saved(self):
         """No step of Poisson's equation depends on an earlier one."""
         scene = "ups/poisson/sine.ups"
