@@ -36,6 +36,10 @@ struct Footprint {
   Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
             Computes<Values> values = {})
       : Footprint(grid, batch, centre, edges, values, std::make_index_sequence<D>()) {}
+  /// Constructs a footprint without parts and weights along the first axis, which `weighRows` computes.
+  [[gnu::always_inline]] Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre,
+                                   const LanesVec<D>& edges, auto values, OnlyEnds)
+      : Footprint(grid, batch, centre, edges, values, OnlyEnds(), std::make_index_sequence<D - 1>()) {}
 
   LanesVec<D> inertia() const {
     LanesVec<D> all;
@@ -85,6 +89,15 @@ struct Footprint {
   [[gnu::always_inline]] void withExtentOfRows(Visit&& visit) const {
     withExtentAlong<0>(visit);
   }
+  /// Computes parts and weights along the first axis, and calls `visit(extent)` with the extent there: so these stay in
+  /// registers.
+  template <SpanValues Values, class Visit>
+  [[gnu::always_inline]] void weighRows(const CellsOf<D>& grid, Computes<Values> values, Visit&& visit) {
+    withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
+      along[0].weigh(extent, grid.along[0], values);
+      visit(extent);
+    });
+  }
   /// Coefficients f_a of a multilinear field about the centre of a box, the sum of f_a phi_a (see Modes). `Axis` is the
   /// last axis on which the field depends.
   template <int Axis>
@@ -124,6 +137,13 @@ struct Footprint {
   Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
             Computes<Values> values, std::index_sequence<Axis...>)
       : along{{{grid.along[Axis], batch.cell[Axis], centre[Axis], edges[Axis], values}...}}, start(batch.start) {}
+  template <SpanValues Values, std::size_t... Later>
+  [[gnu::always_inline]] Footprint(const CellsOf<D>& grid, const Batch<D>& batch, const LanesVec<D>& centre,
+                                   const LanesVec<D>& edges, [[maybe_unused]] Computes<Values> values, OnlyEnds,
+                                   std::index_sequence<Later...>)
+      : along{{{grid.along[0], batch.cell[0], centre[0], edges[0], OnlyEnds()},
+               {grid.along[Later + 1], batch.cell[Later + 1], centre[Later + 1], edges[Later + 1], values}...}},
+        start(batch.start) {}
 
   template <int Axis, class Value>
   Lanes sumAlong(Index<D>& k, const Lanes& part, Value& value) const {

@@ -48,6 +48,8 @@ template <int Overhang, int Case = 0, class Visit>
 enum class SpanValues { weights, all };
 template <SpanValues Values>
 using Computes = std::integral_constant<SpanValues, Values>;
+/// Chooses the constructor of a Span that leaves parts and weights out.
+struct OnlyEnds {};
 
 /// The cells and nodes of a line that intervals overlap, one interval per lane.
 ///
@@ -79,27 +81,36 @@ struct Span {
       : Span(CellsAlong(level, d), cell, centre, length) {}
   template <SpanValues Values = SpanValues::all>
   Span(const CellsAlong& along, const LaneIntegers& cell, const Lanes& centre, const Lanes& length,
-       Computes<Values> values = {}) {
+       Computes<Values> values = {})
+      : Span(along, cell, centre, length, OnlyEnds()) {
+    withExtent<Overhang>(
+        below, cells - 1 - below, [&](auto extent) __attribute__((always_inline)) { weigh(extent, along, values); });
+  }
+  /// Constructs intervals without parts and weights, which `weigh` computes.
+  [[gnu::always_inline]] Span(const CellsAlong& along, const LaneIntegers& cell, const Lanes& centre,
+                              const Lanes& length, OnlyEnds) {
     const Lanes number = widen(cell), origin = along.centre(number);
     const Lanes middle = along.inverse * (centre - origin), half = 0.5 * along.inverse * length;
-    Lanes from = snap(middle - half), to = snap(middle + half);
+    from_ = snap(middle - half);
+    to_ = snap(middle + half);
     if (!along.isPeriodic) {
-      from = max(from, -0.5 - number);
-      to = min(to, along.last + 0.5 - number);
+      from_ = max(from_, -0.5 - number);
+      to_ = min(to_, along.last + 0.5 - number);
     }
     int above = 0;
-    while (below < Overhang && any(from < -0.5 - below)) ++below;
-    while (above < Overhang && any(to > above + 0.5)) ++above;
+    while (below < Overhang && any(from_ < -0.5 - below)) ++below;
+    while (above < Overhang && any(to_ > above + 0.5)) ++above;
     cells = below + 1 + above;
     first = cell - below;
-    lower = origin + from * along.h;
-    upper = origin + to * along.h;
-    const Lanes offset = origin - 0.5 * (lower + upper);
-    withExtent<Overhang>(
-        below, above, [&](auto extent) __attribute__((always_inline)) {
-          distribute(extent, from, to, along.inverse, values);
-          measureArms(extent, offset, along.h, values);
-        });
+    lower = origin + from_ * along.h;
+    upper = origin + to_ * along.h;
+    offset_ = origin - 0.5 * (lower + upper);
+  }
+  /// Computes parts and weights; the extent is that of the interval.
+  template <int Below, int Cells, SpanValues Values>
+  [[gnu::always_inline]] void weigh(Extent<Below, Cells> extent, const CellsAlong& along, Computes<Values> values) {
+    distribute(extent, from_, to_, along.inverse, values);
+    measureArms(extent, offset_, along.h, values);
   }
 
   int nodes() const { return cells + 1; }
@@ -193,6 +204,9 @@ struct Span {
           sum += lever[at] * arm[at];
         });
   }
+
+  Lanes from_, to_;  ///< ends, in cells from the middle of the cell that contains the interval's centre
+  Lanes offset_;     ///< distance of that middle from the interval's [m]
 };
 
 }  // namespace tushar::mpm::gas::conserving

@@ -11,6 +11,7 @@ namespace tushar::mpm::gas::conserving {
 template <int D, bool Fills>
 struct Gathering {
   static constexpr std::size_t nodeSums = 1 + D, cellSums = Fills ? 3 : 2;
+  static constexpr Computes<SpanValues::weights> weights{};
 
   BoxSums<D, nodeSums, 1> nodes;
   BoxSums<D, cellSums, 0> cells;
@@ -18,12 +19,14 @@ struct Gathering {
   explicit Gathering(const RowsAround<D>& around)
       : nodes(around.rows, around.blocks), cells(around.rows, around.blocks) {}
 
-  [[gnu::always_inline]] void add(const Footprint<D>& footprint, const std::array<Lanes, 3>& massEnergyVolume,
+  [[gnu::always_inline]] void add(const CellsOf<D>& grid, Footprint<D>& footprint,
+                                  const std::array<Lanes, 3>& massEnergyVolume,
                                   const typename Footprint<D>::template Field<D - 1>& velocity) {
-    footprint.withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
-      addToCells(extent, footprint, massEnergyVolume);
-      addToNodes(extent, footprint, massEnergyVolume[0], velocity);
-    });
+    footprint.weighRows(
+        grid, weights, [&](auto extent) __attribute__((always_inline)) {
+          addToCells(extent, footprint, massEnergyVolume);
+          addToNodes(extent, footprint, massEnergyVolume[0], velocity);
+        });
   }
 
  private:
@@ -100,9 +103,9 @@ void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visit
   const CellsOf<D> grid(patch.level());
   const auto visit = [&](const Batch<D>& batch) __attribute__((always_inline)) {
     const LanesVec<D> size = load(t.edges, batch);
-    const Footprint<D> footprint(grid, batch, load(t.x, batch), size, Computes<SpanValues::weights>());
+    Footprint<D> footprint(grid, batch, load(t.x, batch), size, sums.weights, OnlyEnds());
     const Lanes m = batch.only(load(t.mass, batch));
-    sums.add(footprint, {m, m * load(t.internalEnergy, batch), batch.only(size.prod())},
+    sums.add(grid, footprint, {m, m * load(t.internalEnergy, batch), batch.only(size.prod())},
              fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
   };
   const auto finish = [&](const Index<D>& row) {

@@ -265,19 +265,22 @@ struct NewVelocity {
 
 /// Updates the particles of a batch.
 template <int D, class Scheme>
-[[gnu::always_inline]] inline void updateBatch(const Level& level, const Batch<D>& batch, const Footprint<D>& footprint,
+[[gnu::always_inline]] inline void updateBatch(const Level& level, const CellsOf<D>& grid, const Batch<D>& batch,
                                                const MotionOf<D, Scheme>& motion, const ParticleUpdate<D>& update,
                                                double dt, Minimum& factor) {
+  constexpr Computes<SpanValues::all> values;
+  Footprint<D> footprint(grid, batch, load(update.x, batch), load(update.edges, batch), values, OnlyEnds());
   const LanesModes<D> u = load(update.modes, batch);
   const LanesVec<D> v = load(update.velocity, batch);
   const Reader<D, MotionOf<D, Scheme>> read(motion, footprint);
   Gathered<D, Scheme, D - 1> taken;
   Lanes done;
-  footprint.withExtentOfRows([&](auto extent) __attribute__((always_inline)) {
-    Index<D> at;
-    gatherFromNodes<D, Scheme, D - 1>(extent, footprint, at, read, fieldOf<D>(v, u), taken);
-    done = workOn(extent, footprint, read);
-  });
+  footprint.weighRows(
+      grid, values, [&](auto extent) __attribute__((always_inline)) {
+        Index<D> at;
+        gatherFromNodes<D, Scheme, D - 1>(extent, footprint, at, read, fieldOf<D>(v, u), taken);
+        done = workOn(extent, footprint, read);
+      });
   LanesVec<D> centre, size;
   for (std::size_t d = 0; d < D; ++d) {
     const auto& span = footprint.along[d];
@@ -306,8 +309,7 @@ void updateAll(const Box& cells, const CellsOf<D>& grid, const Level& level, con
                const MotionOf<D, Scheme>& motion, double dt, Minimum& factor) {
   forEachBatch<D>(
       cells, update.x, [&](const Batch<D>& batch) __attribute__((always_inline)) {
-        const Footprint<D> footprint(grid, batch, load(update.x, batch), load(update.edges, batch));
-        updateBatch<D, Scheme>(level, batch, footprint, motion, update, dt, factor);
+        updateBatch<D, Scheme>(level, grid, batch, motion, update, dt, factor);
       });
 }
 
