@@ -16,23 +16,27 @@ ParticleInstaller::ParticleInstaller(data::Warehouse& warehouse, int material, c
 void ParticleInstaller::makeSets(const OnPatches& onPatches) {
   onPatches([&](const grid::Patch& patch, ParticleMaker& maker) {
     ParticleSet& set = warehouse_->particles(Generation::fresh, material_, patch.id());
-    maker.keepsAll() ? set.forgetGhosts() : maker.makeSet(set, patch, warehouse_->table().reach(material_));
+    if (maker.keepsAll()) return set.forgetGhosts();
+    const ParticleId* ids = nullptr;
+    if (maker.keepsSome())
+      ids = reinterpret_cast<const ParticleId*>(
+          warehouse_->variable(Generation::fresh, numberOfIds(), patch.id()).values);
+    maker.makeSet(set, patch, warehouse_->table().reach(material_), ids);
   });
-  warehouse_->layOut(Generation::fresh, material_, Generation::fresh);
+  if (!keeps_all_) warehouse_->layOut(Generation::fresh, material_, Generation::fresh);
 }
 
 template <class WriteOne>
 void ParticleInstaller::writeEach(int number, const OnPatches& onPatches, const WriteOne& writeOne) {
-  if (keeps_all_) return;
   const data::SharedSlots before = warehouse_->slots(Generation::fresh, number);
   data::Buffer outgrown = warehouse_->follow(Generation::fresh, number, Generation::fresh);
   const std::size_t bytes = warehouse_->table()[number].label->bytes;
   onPatches([&](const grid::Patch& patch, ParticleMaker& maker) {
     std::byte* to = warehouse_->variable(Generation::fresh, number, patch.id()).values;
-    if (!maker.keepsAll()) return writeOne(maker, to);
+    const std::byte* from = outgrown.capacity() > 0 ? outgrown.data() + before->first[placeOf(patch)] * bytes : to;
+    if (!maker.keepsAll()) return writeOne(maker, from, to);
     const int owned = warehouse_->particles(Generation::fresh, material_, patch.id()).owned();
-    if (owned > 0 && outgrown.capacity() > 0)
-      std::memcpy(to, outgrown.data() + before->first[placeOf(patch)] * bytes, static_cast<std::size_t>(owned) * bytes);
+    if (owned > 0 && from != to) std::memcpy(to, from, static_cast<std::size_t>(owned) * bytes);
   });
   warehouse_->takeBack(outgrown);
 }
@@ -40,21 +44,23 @@ void ParticleInstaller::writeEach(int number, const OnPatches& onPatches, const 
 void ParticleInstaller::write(int number, std::size_t access, bool isRead, const OnPatches& onPatches) {
   const data::Label& label = *warehouse_->table()[number].label;
   if (isRead)
-    writeEach(number, onPatches, [&](ParticleMaker& maker, std::byte* to) {
-      if (maker.creates(access)) maker.write(access, label, to);
+    writeEach(number, onPatches, [&](ParticleMaker& maker, const std::byte* from, std::byte* to) {
+      if (maker.creates(access)) maker.write(access, label, from, to);
     });
   else
     onPatches([&](const grid::Patch&, ParticleMaker& maker) {
       if (maker.creates(access)) maker.drop(access, label);
     });
-  const int id = warehouse_->table().find(data::particleId.name, material_);  // of values that outlive each step
-  const bool isStart = !warehouse_->slots(Generation::old, id);
+  const bool isStart = !warehouse_->slots(Generation::old, numberOfIds());  // of values that outlive each step
   if (isStart) warehouse_->releaseFreeMemory();  // of the values in the maker, which is larger than that of any step
 }
 
 void ParticleInstaller::writeIds(const OnPatches& onPatches) {
-  writeEach(warehouse_->table().find(data::particleId.name, material_), onPatches,
-            [](ParticleMaker& maker, std::byte* to) { maker.writeIds(reinterpret_cast<ParticleId*>(to)); });
+  writeEach(numberOfIds(), onPatches, [](ParticleMaker& maker, const std::byte* from, std::byte* to) {
+    maker.writeIds(reinterpret_cast<const ParticleId*>(from), reinterpret_cast<ParticleId*>(to));
+  });
 }
+
+int ParticleInstaller::numberOfIds() const { return warehouse_->table().find(data::particleId.name, material_); }
 
 }  // namespace tushar::tasks

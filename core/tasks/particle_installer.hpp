@@ -17,6 +17,8 @@ class ParticleInstaller {
 
   ParticleInstaller(data::Warehouse& warehouse, int material, const std::vector<ParticleMaker>& makers);
 
+  /// Whether no patch has new particles, so that nothing need be installed after makeSets.
+  bool keepsAll() const { return keeps_all_; }
   /// First step: installs the particle sets, which then have slots.
   void makeSets(const OnPatches& onPatches);
   /// Second step: installs the values of a created label, or discards those of a label that nothing reads.
@@ -24,13 +26,16 @@ class ParticleInstaller {
   void writeIds(const OnPatches& onPatches);
 
  private:
-  /// Calls `writeOne(maker, destination of its values)` for each patch with new particles; the other patches keep their
-  /// values.
+  /// Calls `writeOne(maker, values before, destination of its values)` for each patch with new particles; the other
+  /// patches keep their values.
   template <class WriteOne>
   void writeEach(int number, const OnPatches& onPatches, const WriteOne& writeOne);
   std::size_t placeOf(const grid::Patch& patch) const {
     return static_cast<std::size_t>(patch.id() - warehouse_->grid().firstPatch());
   }
+
+  /// The number of the variable with the ids of particles.
+  int numberOfIds() const;
 
   data::Warehouse* warehouse_;
   int material_;

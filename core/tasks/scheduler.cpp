@@ -330,6 +330,7 @@ void Scheduler::install(const CompiledTask& task, int material, const StepInfo& 
     });
   };
   installer.makeSets(onPatches);
+  if (installer.keepsAll()) return makers_.clear();
   for (std::size_t a = 0; a < binding.accesses.size(); ++a) {
     const int number = binding.accesses[a].variable;
     if (task.task.accesses[a].kind != AccessKind::creates) continue;

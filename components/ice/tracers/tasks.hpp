@@ -73,7 +73,7 @@ struct NewTracers {
   }
 };
 
-/// The values of the tracers that there are.
+/// The values of the tracers that there are; those that are kept need them all.
 template <int D>
 struct KnownTracers {
   ParticleView<const ParticleId> id;
@@ -91,14 +91,6 @@ struct KnownTracers {
     for (const auto& one : *carried)
       if (one->decays()) known.decays.push_back(take(requiresNew(one->totalDecay())));
     return known;
-  }
-  /// Adds a copy of a tracer.
-  void copy(int p, const NewTracers<D>& made) const {
-    made.x.push_back(x[p]);
-    made.velocity.push_back(velocity[p]);
-    made.displacement.push_back(displacement[p]);
-    for (std::size_t k = 0; k < scalars.size(); ++k) made.scalars[k]->push_back(scalars[k][p]);
-    for (std::size_t k = 0; k < decays.size(); ++k) made.decays[k]->push_back(decays[k][p]);
   }
 };
 
@@ -179,13 +171,7 @@ void insertTracers(const Patch& patch, const Tracers& tracers, ParticleMaker& ma
       }
     });
   }
-  if (inserted == 0) return maker.keepAll();
-  known.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
-    for (const int p : range) {
-      maker.add<D>(cell, known.id[p]);
-      known.copy(p, made);
-    }
-  });
+  inserted == 0 ? maker.keepAll() : maker.keep(0, known.x.owned());
 }
 
 /// Calls `visit(p, cell)` for the tracers of a patch.

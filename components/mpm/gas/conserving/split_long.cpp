@@ -37,56 +37,45 @@ void addHalved(const Patch& patch, double longestInCells, const GasBox<D>& piece
   addHalved(patch, longestInCells, half(piece, axis, 1), axis, maker, fresh);
 }
 
-/// Whether particles of a box of cells are longer than `longest` [m] along an axis.
-template <int D>
-bool anyLong(const Box& cells, const ParticleView<const Vec<D>>& edges, const Vec<D>& longest) {
-  Lanes::Mask isLong{};
-  forEachBatch<D>(cells, edges, [&](const Batch<D>& batch) {
-    const LanesVec<D> size = load(edges, batch);
-    for (int d = 0; d < D; ++d) isLong |= size[d] > longest[d];
-  });
-  return any(isLong);
-}
-
-/// Whether any particles in `edges.cells()` are longer than `longest` [m] along an axis. Those of the patch itself are
-/// consecutive in memory.
-template <int D>
-bool anyLong(const Box& own, const ParticleView<const Vec<D>>& edges, const Vec<D>& longest, int owned) {
-  Lanes::Mask isLong{};
+/// Calls `visit(p)` for the particles of the patch, of indices below `owned`, that are longer than `longest` [m] along
+/// an axis. They are consecutive in memory.
+template <int D, class Visit>
+void forEachLong(const ParticleView<const Vec<D>>& edges, const Vec<D>& longest, int owned, Visit&& visit) {
+  const auto visitOne = [&](int p) {
+    if ((edges[p].array() > longest.array()).any()) visit(p);
+  };
   int p = 0;
   for (; p + Lanes::count <= owned; p += Lanes::count) {
     const auto size = unpack<D>(edges[p].data());
+    Lanes::Mask isLong{};
     for (std::size_t d = 0; d < D; ++d) isLong |= size[d] > longest[static_cast<int>(d)];
+    if (any(isLong))  // rarely
+      for (int lane = 0; lane < Lanes::count; ++lane) visitOne(p + lane);
   }
-  bool found = any(isLong);
-  for (; p < owned; ++p) found = found || (edges[p].array() > longest.array()).any();
+  for (; p < owned; ++p) visitOne(p);
+}
+
+/// Calls `visit(p)` for the ghosts around the cells `own` of a patch that are longer than `longest` [m] along an axis.
+template <int D, class Visit>
+void forEachLongGhost(const Box& own, const ParticleView<const Vec<D>>& edges, const Vec<D>& longest, Visit&& visit) {
+  const auto visitAll = [&](const Box& cells) {
+    forEachBatch<D>(cells, edges, [&](const Batch<D>& batch) {
+      const LanesVec<D> size = load(edges, batch);
+      Lanes::Mask isLong{};
+      for (int d = 0; d < D; ++d) isLong |= size[d] > longest[d];
+      if (batch.holds(~isLong)) return;
+      for (int lane = 0; lane < Lanes::count; ++lane)
+        if (batch.used[lane] != 0 && isLong[lane] != 0) visit(batch.place[lane]);
+    });
+  };
   Box around = edges.cells();
-  for (int d = D - 1; d >= 0 && !found; --d) {  // the ghosts below and above the patch along d
+  for (int d = D - 1; d >= 0; --d) {  // the ghosts below and above the patch along d
     Box below = around, above = around;
     below.upper[d] = around.lower[d] = own.lower[d];
     above.lower[d] = around.upper[d] = own.upper[d];
-    found = anyLong<D>(below, edges, longest) || anyLong<D>(above, edges, longest);
+    visitAll(below);
+    visitAll(above);
   }
-  return found;
-}
-
-/// Appends the values of particles `first` to `last` - 1.
-template <class T>
-void append(const ParticleView<const T>& from, int first, int last, std::vector<T>& to) {
-  to.insert(to.end(), &from[first], &from[last - 1] + 1);
-}
-
-/// Adds particles that are kept, from `first` up to but excluding `last`, whose cells and ids the maker already has.
-template <int D>
-void addKept(const OldBoxes<D>& old, int first, int last, const NewBoxes<D>& fresh) {
-  if (first == last) return;
-  append(old.x, first, last, fresh.x);
-  append(old.edges, first, last, fresh.edges);
-  append(old.mass, first, last, fresh.mass);
-  append(old.velocity, first, last, fresh.velocity);
-  append(old.modes, first, last, fresh.modes);
-  append(old.internalEnergy, first, last, fresh.internalEnergy);
-  append(old.affineEnergy, first, last, fresh.affineEnergy);
 }
 
 }  // namespace
@@ -96,27 +85,20 @@ void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old
                const NewBoxes<D>& fresh) {
   Vec<D> longest;
   for (int d = 0; d < D; ++d) longest[d] = longestInCells * patch.level().spacing(d);
-  if (!anyLong<D>(patch.cells(), old.edges, longest, old.edges.owned())) return maker.keepAll();
-  int kept = 0, next = 0;  // particles of the patch whose values wait to be added
-  const auto addWaiting = [&](int begin) {
-    addKept(old, kept, next, fresh);
-    kept = next = begin;
-  };
-  forEach<D>(old.x.cells(), [&](const Index<D>& cell) {
-    const bool isOwn = patch.cells().contains(cell);
-    for (const int p : old.x.in(cell)) {
-      const bool isLong = (old.edges[p].array() > longest.array()).any();
-      if (isLong) {
-        addWaiting(p + 1);
-        addHalved(patch, longestInCells, old.at(p), 0, maker, fresh);
-      } else if (isOwn) {
-        if (p != next) addWaiting(p);
-        next = p + 1;
-        maker.add(cell, old.ids[p]);
-      }
-    }
+  const auto halve = [&](int p) { addHalved(patch, longestInCells, old.at(p), 0, maker, fresh); };
+  bool splits = false;
+  int next = 0;  // the first particle that is not kept yet
+  forEachLong<D>(old.edges, longest, old.edges.owned(), [&](int p) {
+    splits = true;
+    maker.keep(next, p);
+    next = p + 1;
+    halve(p);
   });
-  addWaiting(0);
+  forEachLongGhost<D>(patch.cells(), old.edges, longest, [&](int p) {
+    splits = true;
+    halve(p);
+  });
+  splits ? maker.keep(next, old.edges.owned()) : maker.keepAll();
 }
 
 template void splitLong<1>(const Patch&, double, const OldBoxes<1>&, ParticleMaker&, const NewBoxes<1>&);
