@@ -59,6 +59,21 @@ HEATED = """<PhysicalBC><MPM><heat_flux>
     <load_curve><time_point><time>0</time><load>1e6</load></time_point></load_curve></heat_flux></MPM></PhysicalBC>"""
 
 
+MASTER = """<Uintah_specification><SimulationComponent type="impm"/>
+<Time><maxTime>.2</maxTime><delt_max>.1</delt_max><delt_init>.1</delt_init></Time>
+<MPM><time_integrator>implicit</time_integrator><interpolator>gimp</interpolator><dynamic>true</dynamic></MPM>
+<MaterialProperties><MPM><material><density>1000</density><constitutive_model type="comp_neo_hook">
+<bulk_modulus>1e6</bulk_modulus><shear_modulus>5e5</shear_modulus></constitutive_model><geom_object>
+<box><min>[.2,.2,0]</min><max>[.5,.5,.05]</max></box><res>[2,2,1]</res><velocity>[0,0,0]</velocity></geom_object>
+</material><contact><type>specified</type><materials>[0]</materials><master_material>0</master_material>
+<direction>[1,1,0]</direction><filename>motion.txt</filename></contact></MPM></MaterialProperties>
+<Grid><BoundaryConditions><Face side="z-"><BCType id="all" label="Symmetric" var="symmetry"/></Face>
+<Face side="z+"><BCType id="all" label="Symmetric" var="symmetry"/></Face></BoundaryConditions>
+<Level><Box label="all"><lower>[0,0,0]</lower><upper>[1.2,.8,.05]</upper><resolution>[24,16,1]</resolution></Box></Level>
+</Grid><DataArchiver><filebase>master.uda</filebase><save label="TotalMomentum"/><save label="KineticEnergy"/>
+<save label="CenterOfMassPosition"/></DataArchiver></Uintah_specification>"""
+
+
 class Implicit(SceneTest):
     def test_heat_that_flows_in_while_bodies_rest_or_move(self):
         text = (ROOT / BEAM).read_text()
@@ -171,6 +186,20 @@ class Implicit(SceneTest):
         times = [row[0] for row in rows["TotalMomentum"]]
         for before, after in zip(times, times[1:]):
             self.assertAlmostEqual(after - before, .8 * .05, delta=1e-9)  # of a cell, at 1 m/s
+
+    def test_a_master_has_the_velocity_of_its_file_and_limits_steps_by_it(self):
+        """Until 30 November 2026, its velocity stayed 0, and its first steps could cross several cells."""
+        scene = self.scene(MASTER)
+        scene.with_name("motion.txt").write_text("0 1 0 0\n10 1 0 0\n")
+        found = globals_of(scene, "TotalMomentum", "KineticEnergy", "CenterOfMassPosition")
+        mass = 1000 * .3 * .3 * .05
+        for momentum, energy in zip(found["TotalMomentum"][1:], found["KineticEnergy"][1:]):
+            self.assertAlmostEqual(momentum[1], mass, delta=1e-12)
+            self.assertAlmostEqual(energy[1], mass / 2, delta=1e-12)
+        rows = found["CenterOfMassPosition"]
+        for before, after in zip(rows, rows[1:]):
+            self.assertLessEqual(after[0] - before[0], .8 * .05 + 1e-12)
+            self.assertAlmostEqual((after[1] - before[1]) / mass, after[0] - before[0], delta=1e-9)
 
     def test_a_grid_that_goes_along_gives_one_equilibrium_in_any_number_of_steps(self):
         along = ("MPM/do_grid_reset=false", "DataArchiver/save[1]/@label=p.displacement")

@@ -58,9 +58,43 @@ void noteLostVelocity(const Level& level, const Body& body, std::vector<InputPro
   }
 }
 
+/// Whether the grid has one cell along an axis of a vector along which it is not 0, and along none other.
+bool isLost(const Level& level, const Vec3& vector) {
+  bool isAny = false, isKept = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    isAny = isAny || vector[axis] != 0;
+    isKept = isKept || (vector[axis] != 0 && level.domain().resolution[axis] > 1);
+  }
+  return isAny && !isKept;
+}
+
+/// Adds notes on loads and masters that move nothing, because the grid has one cell along their axes.
+void noteLostForces(const Level& level, const Problem& problem, std::vector<InputProblem>& notes) {
+  for (const SurfaceLoad& load : problem.start.loads.surfaces)
+    if (load.kind == LoadKind::pressure && isLost(level, load.givenDirection()))
+      notes.push_back({load.where, "PhysicalBC/MPM/pressure",
+                       "pushes along an axis of which the grid has one cell, and so has no effect; a box pushes along "
+                       "its thinnest side"});
+  for (const BodyLoad& load : problem.start.loads.bodies)
+    if (isLost(level, load.forceDensity))
+      notes.push_back({load.where, "PhysicalBC/MPM/force",
+                       "force_density: acts only along an axis of which the grid has one cell, and so has no effect"});
+  for (const Contact& contact : problem.contacts) {
+    if (contact.type != Contact::Type::specified) continue;
+    Vec3 along;
+    for (int axis = 0; axis < 3; ++axis) along[axis] = contact.direction[axis] ? 1 : 0;
+    if (isLost(level, along))
+      notes.push_back({contact.where, "MaterialProperties/MPM/contact",
+                       fmt::format("direction: {} the other materials follow the master only along an axis of which "
+                                   "the grid has one cell, so that they do not follow it; give a <direction>",
+                                   contact.directionIsGiven ? "as given," : "without it,")});
+  }
+}
+
 template <int D>
 std::vector<InputProblem> notesOn(const Level& level, const Problem& problem) {
   std::vector<InputProblem> notes;
+  noteLostForces(level, problem, notes);
   for (const Material& material : problem.materials)
     for (std::size_t k = 0; k < material.bodies.size(); ++k) {
       const Body& body = material.bodies[k];

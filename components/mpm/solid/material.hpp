@@ -21,7 +21,7 @@ struct Body {
   input::Expression temperature;       ///< temperature [K]
   double color = 0;
   bool fillsDepth = false;  ///< whether a particle that starts in the body is as deep as the grid, as gas requires
-  int levels = 1;  ///< number of particle sizes that fill the shape; negative: no particle extends beyond the shape
+  int levels = 1;  ///< number of particle sizes that fill the shape; negative: only the smallest extend beyond it
   /// Rows of A, and b: the body's particles start at A X + b [m] instead of X.
   Vec3 affineRow0 = Vec3::UnitX(), affineRow1 = Vec3::UnitY(), affineRow2 = Vec3::UnitZ(), affineShift = Vec3::Zero();
   std::shared_ptr<const ListedParticles> list;  ///< its particles, which are also its shape, if a file lists them

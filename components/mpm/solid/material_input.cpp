@@ -186,7 +186,7 @@ Schema<Body> bodyTags() {
       .value("color", &Body::color, 0, "1", "a number that the particles of the body store as p.color")
       .value("numLevelsParticleFilling", &Body::levels, 1, "1",
              "number of particle sizes, each half the previous one, that fill the shape up to its surface; negative: "
-             "no particle extends beyond the surface",
+             "only the smallest particles extend beyond the surface",
              input::between(-8, 8))
       .value("affineTransformation_A0", &Body::affineRow0, Vec3::UnitX(), "1",
              "first row of A: for each point X inside the shape, a particle starts at A X + b instead of X, and A "

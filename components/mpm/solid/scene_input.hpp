@@ -20,7 +20,7 @@ std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm);
 /// Numbers the materials, and gives a name to those that have none or the name of a previous one.
 void nameMaterials(std::vector<Material>& materials);
 
-/// Requires specific heats if work or conduction changes temperatures.
+/// Requires specific heats if work, loads or conduction change temperatures.
 void checkHeat(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
 
 /// Refuses heat flows through sides of the grid: solids do not know how much of a side they touch.

@@ -44,6 +44,7 @@ struct Contact {
   /// Whether the other materials follow the master along x, y, z.
   std::array<bool, 3> direction{false, false, true};
   bool directionIsGiven = false;                         ///< whether `direction` is given in the scene
+  Location where;                                        ///< location of its tag in the scene
   double stopTime = std::numeric_limits<double>::max();  ///< stop time [s]
   Vec3 velocityAfterStop = Vec3::Zero();                 ///< velocity after stop [m/s]
   /// The master's velocity over time [m/s]; empty: the master moves freely.

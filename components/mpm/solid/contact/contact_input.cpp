@@ -285,6 +285,7 @@ void noteMaterials(const ContactSection& read, const Element& tag, int count, Di
 Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
   Contact contact;
   contact.type = typeOf(read.kind);
+  contact.where = tag.where();
   contact.actsTwice = read.steps.value_or(hasMaster(read.kind) ? 1 : 2) == 2;
   contact.excluded = read.excluded.value_or(-1);
   contact.friction = read.friction.value_or(0);

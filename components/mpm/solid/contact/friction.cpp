@@ -141,7 +141,9 @@ template <int D>
 void applyFriction(const Patch& patch, const Contact& contact, double dt, const MeetingBodies<D>& meeting,
                    const Records& records, const Surfaces& surfaces, const FrictionHeats& heat) {
   const Level& level = patch.level();
-  const double reach = contact.separationFactor * std::cbrt(level.cellVolume());
+  double widths = 1;
+  for (int d = 0; d < D; ++d) widths *= level.spacing(d);
+  const double reach = contact.separationFactor * std::pow(widths, 1.0 / D);
   const double leastVolume = contact.volumeConstraint * level.cellVolume();
   const Box nodes = records.front().box();
   std::vector<std::size_t> bodies;

@@ -56,8 +56,7 @@ void BrittleDamage::grow(const MaterialConstants&, const DamageConditions& condi
                          DamageState& state) const {
   const double energy = std::sqrt(young) * std::max(greatestStrain(conditions.deformation), 0.0);
   if (stress.trace() > 0 && energy > state.threshold) {
-    const double size = std::cbrt(conditions.volume);
-    const double rate = threshold * size * (1 + shape) / (fractureEnergy * shape) * std::log(1 + shape);
+    const double rate = threshold * conditions.size * (1 + shape) / (fractureEnergy * shape) * std::log(1 + shape);
     const double spread = 1 + shape * std::exp(-rate * (energy - threshold));
     state.damage = std::min(0.999 / shape * ((1 + shape) / spread - 1), state.damage + greatestStep);
     state.threshold = energy;

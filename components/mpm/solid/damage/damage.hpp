@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 /// The variables of one particle at the end of a step that determine the growth of damage.
 struct DamageConditions {
   const Matrix3& deformation;  ///< deformation gradient F [1]
-  double volume;               ///< volume [m^3]
+  double size;                 ///< size of the particle [m]
   double plasticStrainRate;    ///< plastic strain rate [1/s]
   double temperature;          ///< temperature [K]
   double timeStep;             ///< time step [s]

@@ -23,6 +23,8 @@ struct Erosion {
   double relaxationTime = 1e-99;
 
   bool acts() const { return algorithm != Algorithm::none; }
+  /// Whether failed particles keep their stress.
+  bool keepsStress() const { return algorithm == Algorithm::preserveStress || algorithm == Algorithm::none; }
 
   /// Remaining stress of a particle [Pa]; `sinceFailure` is the time since its failure [s].
   Matrix3 bearable(const Matrix3& stress, double sinceFailure) const {

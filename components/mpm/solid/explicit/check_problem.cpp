@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "components/mpm/solid/scene_input.hpp"
 
 namespace tushar::mpm::solid {
@@ -71,6 +73,19 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
 }
 
+/// Adds notes on settings that other settings make ineffective.
+void noteIdle(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const Element mpm = root.child("MPM").value();
+  const auto usesPlanes = [](const Contact& contact) { return contact.usesPlanes(); };
+  if (problem.method.contactHeats && std::any_of(problem.contacts.begin(), problem.contacts.end(), usesPlanes))
+    diagnostics.note(mpm.child("do_contact_friction_heating").value(),
+                     "has no effect on friction along planes (friction_LR, friction_LRVar, specified_friction), which "
+                     "makes no heat");
+  const auto update = mpm.child("stress_update"), momentum = mpm.child("UseMomentumForm");
+  if (momentum && momentum->text() == "true" && update && update->text() != "musl")
+    diagnostics.note(*update, "has no effect with <UseMomentumForm> true, which means musl");
+}
+
 }  // namespace
 
 void checkProblem(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
@@ -79,6 +94,7 @@ void checkProblem(const Problem& problem, const Element& root, Diagnostics& diag
   checkCorners(problem, root, diagnostics);
   checkContactsOfMethod(problem, root, diagnostics);
   checkTransmitters(problem, root, diagnostics);
+  noteIdle(problem, root, diagnostics);
 }
 
 }  // namespace tushar::mpm::solid

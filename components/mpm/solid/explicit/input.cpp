@@ -334,7 +334,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
     if (contact.hasMaster()) problem.materials[contact.master].isRigid = true;  // as in Uintah
   }
   problem.method.thermalContact = properties.mpm.thermalContact.has_value();
-  problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
+  problem.start = {read.axisymmetric, readLoads(root, {read.useLoadCurves, read.axisymmetric}, diagnostics),
                    makeManufactured(read.manufactured)};
   problem.start.leastMass = read.minimumParticleMass;
   problem.method.removesLost = problem.method.removesLost && !repeatsSteps(root);

@@ -255,6 +255,7 @@ void SolidMpm<D>::scheduleHeat(TaskList& tasks) const {
   const auto& [materials, commonSize] = std::tie(problem_.materials, problem_.method.commonSize);
   const bool isAnyGiven = problem_.method.givesTemperatures;
   scheduleNodalTemperature(tasks, bodies_->shaped, materials, commonSize, keepsSizes(), isAnyGiven);
+  scheduleShareTemperature(tasks);
   if (isAnyGiven)
     tasks.perMaterial("mpm::followGivenTemperature", bodies_->followGivenTemperature, materials, with(commonSize),
                       all<NearGivenTemperature<D>>(shapes_, keepsSizes()));

@@ -33,8 +33,8 @@ class SolidMpm : public SolidsOf<D>, public simulation::CarefulSteps, public sim
   using Base::keeps_stress_, Base::problem_, Base::shapes_;
   using Base::scheduleApplyExternalLoads, Base::scheduleContact, Base::scheduleContactAtEnd, Base::scheduleCornerLoads,
       Base::scheduleDamage, Base::scheduleEndOfStep, Base::scheduleFriction, Base::scheduleHeatFlux,
-      Base::scheduleKeepVelocity, Base::scheduleNodalWork, Base::scheduleSurroundingForce,
-      Base::scheduleTemperatureRate;
+      Base::scheduleKeepVelocity, Base::scheduleNodalWork, Base::scheduleShareTemperature,
+      Base::scheduleSurroundingForce, Base::scheduleTemperatureRate;
 
   void scheduleStep(TaskList& tasks, StressUpdate stressUpdate) const;
   void scheduleShowOnGrid(TaskList& tasks, Reads stressed) const override;

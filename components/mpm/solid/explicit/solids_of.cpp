@@ -130,7 +130,7 @@ void SolidsOf<D>::scheduleNonlocalPlasticity(TaskList& tasks) const {
 
 template <int D>
 void SolidsOf<D>::scheduleDamage(TaskList& tasks) const {
-  if (is_damageable_) solid::scheduleDamage(tasks, problem_.materials, state_);
+  if (is_damageable_) solid::scheduleDamage<D>(tasks, problem_, state_);
 }
 
 /// Adds contacts other than stress-based friction, for the velocities in a record.
@@ -215,14 +215,20 @@ void SolidsOf<D>::scheduleHeatFlux(TaskList& tasks) const {
                     requiresOld(p::x<D>), requiresOld(p::loadCurves), computes(p::heatFlux));
 }
 
+template <int D>
+void SolidsOf<D>::scheduleShareTemperature(TaskList& tasks) const {
+  if (!problem_.method.thermalContact) return;
+  tasks.acrossMaterials("mpm::shareTemperature", shareTemperature<D>, problem_.materials, requiresNew(g::heatCapacity),
+                        modifies(g::temperatureNoBC), modifies(g::temperature));
+}
+
 /// Adds the temperatures of nodes at the end of the step, with the heat of contact and friction.
 template <int D>
 void SolidsOf<D>::scheduleTemperatureRate(TaskList& tasks) const {
   const bool hasContact = problem_.method.thermalContact;
   if (hasContact)
     tasks.acrossMaterials("mpm::computeHeatExchange", computeHeatExchange<D>, problem_.materials,
-                          requiresNew(g::heatCapacity), requiresNew(g::temperature), requiresOld(delT),
-                          computes(g::contactTemperatureRate));
+                          all<HeatOfMaterial>(rubbingHeats()), requiresOld(delT), computes(g::contactTemperatureRate));
   tasks.perMaterial("mpm::integrateTemperatureRate", integrateTemperatureRate<D>, problem_.materials,
                     all<NodalHeating>(hasContact, rubbingHeats(), problem_.method.givesTemperatures),
                     requiresOld(delT));
@@ -246,8 +252,7 @@ void SolidsOf<D>::scheduleDiagnostics(TaskList& tasks) const {
                       computes(p::stress));
   }
   scheduleShowOnGrid(tasks, stressed);
-  scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, stressed(p::volume), stressed(p::stress),
-                            isViscous());
+  scheduleBoundaryForces<D>(tasks, problem_, stressed(p::volume), stressed(p::stress), isViscous());
   tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, stressed(p::volume), computes(total::volume));
 }
 

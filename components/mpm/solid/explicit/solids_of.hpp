@@ -45,6 +45,7 @@ class SolidsOf : public Solids {
   void scheduleKeepVelocity(TaskList& tasks, const NodeLabel<Vec<D>>& kept) const;
   void scheduleNodalWork(TaskList& tasks) const;
   void scheduleHeatFlux(TaskList& tasks) const;
+  void scheduleShareTemperature(TaskList& tasks) const;
   void scheduleTemperatureRate(TaskList& tasks) const;
   void scheduleDamage(TaskList& tasks) const;
   void scheduleEndOfStep(TaskList& tasks) const;

@@ -55,8 +55,8 @@ void ImplicitMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
       "impm::limitTimeStep", [](const Patch&, double allowed, Minimum& dt) { dt.add(allowed, "Newton's iterations"); },
       requiresOld(total::nextTimeStep), computes(delT));
   if (how_.dynamic && how_.movesBodies)
-    tasks.perMaterial("impm::limitBySpeed", limitBySpeed<D>, problem_.materials, requiresOld(p::velocity<D>),
-                      computes(delT));
+    tasks.perMaterial("impm::limitBySpeed", limitBySpeed<D>, problem_.materials, with(setup()), startTime(),
+                      requiresOld(p::velocity<D>), computes(delT));
 }
 
 template <int D>
@@ -69,7 +69,7 @@ void ImplicitMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
                                startTime(), requiresOld(delT), all<SolidParticles<D>>(InStep(), &state_),
                                all<NodalMotion<D>>(), totals<SolveTotals>());
   scheduleMovement(tasks);
-  if (is_damageable_) scheduleDamage(tasks, problem_.materials, state_);
+  if (is_damageable_) scheduleDamage<D>(tasks, problem_, state_);
   scheduleVelocity(tasks);
   scheduleHeat(tasks);
   if (how_.resetsGrid)
@@ -89,8 +89,8 @@ void ImplicitMpm<D>::scheduleMovement(TaskList& tasks) const {
 template <int D>
 void ImplicitMpm<D>::scheduleVelocity(TaskList& tasks) const {
   if (how_.dynamic)
-    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<D>, problem_.materials, with(setup()), requiresOld(delT),
-                      all<NewmarkUpdate<D>>(shapes_->shaped.shape.ghostNodes));
+    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<D>, problem_.materials, with(setup()), startTime(),
+                      requiresOld(delT), all<NewmarkUpdate<D>>(shapes_->shaped.shape.ghostNodes));
   else {
     const auto& place = how_.resetsGrid ? p::x<D> : p::displacement<D>;
     tasks.perMaterial("impm::meanVelocity", meanVelocity<D>, problem_.materials, requiresOld(delT), requiresOld(place),
@@ -128,8 +128,7 @@ void ImplicitMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
   const int reach = shapes_->shaped.shape.reach;
   scheduleShowOnGrid(tasks, shapes_->shaped, problem_.materials, problem_.method.commonSize, keepsSizes,
                      requiresOld(p::volume, reach), requiresOld(p::stress, reach));
-  scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, requiresOld(p::volume),
-                            requiresOld(p::stress));
+  scheduleBoundaryForces<D>(tasks, problem_, requiresOld(p::volume), requiresOld(p::stress));
 }
 
 template class ImplicitSystem<1>;

@@ -1,5 +1,7 @@
 #include "components/mpm/solid/implicit/input.hpp"
 
+#include <fmt/format.h>
+
 #include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/grains/grain_input.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"
@@ -176,14 +178,21 @@ bool isMaster(const Problem& problem, int material) {
 
 /// Refuses materials without a tangent, except masters of contacts, which do not deform.
 void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
-  for (const Material& material : problem.materials)
-    if (!material.model->hasTangent() && !isMaster(problem, material.index))
+  for (const Material& material : problem.materials) {
+    if (material.model->hasTangent() || isMaster(problem, material.index)) continue;
+    if (material.thermalExpansion != 0)
+      diagnostics.error(root.child("MaterialProperties").value(),
+                        "'" + material.name +
+                            "' expands with temperature, for which there is no tangent; implicit time steps need one: "
+                            "remove linear_thermal_expansion_coef, or take <time_integrator> explicit");
+    else
       diagnostics.error(
           root.child("MaterialProperties").value(),
           "'" + material.name + "' is " + std::string(material.model->name()) +
               ", which has no tangent; implicit time steps need one: use comp_neo_hook, comp_mooney_rivlin, "
               "trans_iso_hyper, visco_trans_iso_hyper, hypo_elastic, UCNH or elastic_plastic, or make the material the "
               "master of a <contact> of type rigid or specified");
+  }
 }
 
 /// Whether a damage model accumulates damage without weakening the material.
@@ -250,6 +259,17 @@ void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
+/// Adds a note if steps become shorter and shorter: each is at most the last one times the factor of <MPM>, times the
+/// multiplier of <Time>.
+void noteShrinkingSteps(const Section& read, const Element& root, Diagnostics& diagnostics) {
+  const auto time = root.child("Time"), tag = time ? time->child("timestep_multiplier") : std::nullopt;
+  const std::optional<double> multiplier = tag ? input::parse<double>(tag->text()).value : 1.0;
+  if (multiplier && *multiplier > 0 && *multiplier * read.increaseFactor < 1)
+    diagnostics.note(*tag, fmt::format("each step is at most {:g} times the last one: timestep_multiplier times "
+                                       "delT_increase_factor, as in Uintah, so that steps become shorter and shorter",
+                                       *multiplier * read.increaseFactor));
+}
+
 /// Whether a boundary condition may concern solids; those of gases have other labels.
 bool isOfSolids(std::string_view label) {
   return label == grid::symmetric.name || label == boundary::velocity.name || label == boundary::temperature.name;
@@ -295,7 +315,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   settleMasters(root, problem.contacts, diagnostics);
   settleDirections(problem.contacts);
   problem.start.axisymmetric = read.axisymmetric;
-  problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
+  problem.start.loads = readLoads(root, {read.useLoadCurves, read.axisymmetric}, diagnostics);
   nameMaterials(problem.materials);
   settleGrains(problem, {}, root, diagnostics);
   settleZones(problem, properties.mpm.zones, {}, root, diagnostics);
@@ -306,6 +326,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   if (read.moves && read.sharesVolume) refuseVolumesOfStates(problem, root, diagnostics);
   refuseConditions(problem, root, diagnostics);
   if (read.heat) noteThermalStrain(root, diagnostics);
+  if (read.moves) noteShrinkingSteps(read, root, diagnostics);
   if (diagnostics.size() > before) return {};
   return [read, problem, where = root.child("MPM")->where()](const Level& level) {
     if (read.axisymmetric) refuseCellsAround(level, where);

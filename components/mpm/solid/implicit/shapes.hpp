@@ -74,6 +74,11 @@ struct ImplicitSetup {
       if (contact.type == Contact::Type::specified && contact.master == material) return &contact;
     return nullptr;
   }
+  /// The velocity of a material at a time [m/s], if it is a master whose motion is prescribed.
+  std::optional<Vec3> masterVelocity(int material, double time) const {
+    const Contact* contact = rigidContact(material);
+    return contact ? contact->prescribedVelocity(time) : std::nullopt;
+  }
   void forEachTouched(const Patch& patch, const Placed<D>& placed, const VisitTouches<D>& visit) const {
     shapes->forEachTouched(patch, placed, problem->method.commonSize, visit);
   }

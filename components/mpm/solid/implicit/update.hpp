@@ -126,10 +126,18 @@ struct NewmarkUpdate {
   }
 };
 
-/// Computes Newmark's update, v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i.
+/// Computes Newmark's update, v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i. A master whose motion is prescribed
+/// has its velocity at the end of the step.
 template <int D>
-void advanceVelocity(const Patch& patch, const Material&, const ImplicitSetup<D>& setup, double dt,
-                     const NewmarkUpdate<D>& u) {
+void advanceVelocity(const Patch& patch, const Material& material, const ImplicitSetup<D>& setup, double time,
+                     double dt, const NewmarkUpdate<D>& u) {
+  if (const auto given = setup.masterVelocity(material.index, time + dt)) {
+    for (int p = 0; p < u.velocity.owned(); ++p) {
+      u.velocity[p] = patch.level().template reduce<D>(*given);
+      u.acceleration[p] = Vec<D>::Zero();
+    }
+    return;
+  }
   setup.forEachTouched(patch, u.placed, [&](int p, std::span<const Touch<D>> touched) {
     u.acceleration[p] = interpolated<D>(patch.level(), touched, u.nodalAcceleration).first;
     u.velocity[p] = u.oldVelocity[p] + dt / 2 * (u.oldAcceleration[p] + u.acceleration[p]);
@@ -164,13 +172,18 @@ void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& 
 }
 
 /// With inertia: limits the next step so that no particle moves by more than .8 of a cell along any axis at its current
-/// velocity.
+/// velocity, or at that of a master whose motion is prescribed.
 template <int D>
-void limitBySpeed(const Patch& patch, const Material&, ParticleView<const Vec<D>> velocity, Minimum& dt) {
-  for (int p = 0; p < velocity.owned(); ++p)
+void limitBySpeed(const Patch& patch, const Material& material, const ImplicitSetup<D>& setup, double time,
+                  ParticleView<const Vec<D>> velocity, Minimum& dt) {
+  const auto limit = [&](const Vec<D>& v) {
     for (int d = 0; d < D; ++d)
-      if (const double speed = std::abs(velocity[p][d]); speed > 0)
+      if (const double speed = std::abs(v[d]); speed > 0)
         dt.add(0.8 * patch.level().spacing(d) / speed, "the speed of particles");
+  };
+  if (const auto given = setup.masterVelocity(material.index, time))
+    return limit(patch.level().template reduce<D>(*given));
+  for (int p = 0; p < velocity.owned(); ++p) limit(velocity[p]);
 }
 
 /// Computes the force of loads on each particle at the end of the step.

@@ -81,6 +81,19 @@ double areaOf(const Surface& surface) {
                     surface);
 }
 
+double areaPerRadian(const Surface& surface) {
+  return std::visit(Overloaded{[](const input::Box& box) {
+                                 const Vec3 sides = box.max - box.min;
+                                 const double inner = std::max(box.min[0], 0.0), outer = std::max(box.max[0], 0.0);
+                                 if (thinAxis(box) == 0) return 0.5 * (inner + outer) * sides[1];
+                                 return thinAxis(box) == 1 ? 0.5 * (outer * outer - inner * inner)
+                                                           : sides[0] * sides[1];
+                               },
+                               [](const input::Sphere& s) { return 2 * s.radius * s.radius; },
+                               [](const input::Cylinder& c) { return areaOf(c); }},
+                    surface);
+}
+
 bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, LoadKind kind) {
   const bool forHeat = kind == LoadKind::heatFlux;
   return std::visit(
@@ -129,13 +142,20 @@ bool SurfaceLoad::acts(const grid::Level& level, const Body& body, const Vec3& p
   return isAlong(surface, point, particleSpacing(level, body, point), kind) && isAtSurface(level, body, point);
 }
 
+Vec3 SurfaceLoad::givenDirection() const {
+  const auto* cylinder = std::get_if<input::Cylinder>(&surface);
+  const bool isGiven = cylinder ? isEnd(*cylinder) : std::holds_alternative<input::Box>(surface);
+  return isGiven ? normalAt(surface, Vec3::Zero()) : Vec3(Vec3::Zero());
+}
+
 double SurfaceLoad::weight(const Vec3& point) const {
   const auto* cylinder = std::get_if<input::Cylinder>(&surface);
-  return cylinder && cylinder->axisymmetricEnd ? point[0] : 1.0;
+  const bool byRadius = cylinder ? cylinder->axisymmetricEnd : aroundAxis;
+  return byRadius ? point[0] : 1.0;
 }
 
 double SurfaceLoad::share(const Vec3& point, double time) const {
-  const double area = kind == Kind::torque ? 1.0 : areaOf(surface);
+  const double area = kind == Kind::torque ? 1.0 : aroundAxis ? areaPerRadian(surface) : areaOf(surface);
   return curve.at(time) * area * weight(point) / particles;
 }
 

@@ -26,6 +26,9 @@ enum class LoadKind { pressure, torque, heatFlux };
 
 /// Area of a surface [m^2]; per radian for the side or end of an axisymmetric cylinder.
 double areaOf(const Surface& surface);
+/// Area per radian [m^2/rad] of a box or sphere whose first axis is the distance r from an axis of symmetry, the
+/// integral of r along it.
+double areaPerRadian(const Surface& surface);
 /// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface. The largest distances are
 /// Uintah's. From a box: one spacing along its thin axis or, for heat, along all axes. From a cylinder: 1.2 times the
 /// smallest spacing, for a torque 0.9 times, and for heat from its side half the length of the spacing vector. From a
@@ -36,17 +39,18 @@ bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, Loa
 Vec3 normalAt(const Surface& surface, const Vec3& point);
 
 /// A `PhysicalBC/MPM/pressure`, `torque` or `heat_flux`: the particles at the surface share the force or heat of the
-/// whole area, or the torque. The shares are equal or, on the end of an axisymmetric cylinder, proportional to the
-/// particles' radii.
+/// whole area, or the torque. The shares are equal or, on the end of an axisymmetric cylinder and on boxes and spheres
+/// around an axis of symmetry, proportional to the particles' radii.
 struct SurfaceLoad {
   using Kind = LoadKind;
 
   Kind kind = Kind::pressure;
   Surface surface;
-  LoadCurve curve;       ///< load as a function of time [Pa, N m, or W/m^2]
-  int material = -1;     ///< index of the material; -1: all
-  Location where;        ///< location of its tag in the scene
-  double particles = 0;  ///< sum of the weights of the particles at the surface, computed by countParticles
+  LoadCurve curve;          ///< load as a function of time [Pa, N m, or W/m^2]
+  int material = -1;        ///< index of the material; -1: all
+  Location where;           ///< location of its tag in the scene
+  bool aroundAxis = false;  ///< whether the scene is axisymmetric
+  double particles = 0;     ///< sum of the weights of the particles at the surface, computed by countParticles
   bool outwardNormal =
       /// For pressure on faces of particles: whether it acts on the face towards normalAt, rather than on the opposite
       /// face.
@@ -60,6 +64,9 @@ struct SurfaceLoad {
   Vec3 force(const Vec3& point, double time) const;
   /// Force, torque or heat flow per particle [N, N m or W].
   double share(const Vec3& point, double time) const;
+  /// The direction in which a positive pressure pushes, if it is the same everywhere: on a box and on the end of a
+  /// cylinder; otherwise 0.
+  Vec3 givenDirection() const;
   /// Weight of a particle among those at the surface: 1, or its radius [m].
   double weight(const Vec3& point) const;
 };
@@ -68,6 +75,7 @@ struct SurfaceLoad {
 struct BodyLoad {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< lower corner and upper corner [m]
   Vec3 forceDensity = Vec3::Zero();                 ///< force density [N/kg]
+  Location where = {};                              ///< location of its tag in the scene
 
   bool acts(const Vec3& point, const Vec3& spacing) const {
     return ((point - lower + spacing).array() >= 0).all() && ((upper + spacing - point).array() >= 0).all();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/input/refuse.hpp"
 #include "core/input/schema.hpp"
 #include "core/simulation/by_dimension.hpp"
@@ -138,7 +140,9 @@ void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
 
 const Schema<PhysicalBC>& loadsSchema() {
   static const Schema<SurfaceSection> pressure =
-      surfaceSchema("pressure", "Force per area, distributed evenly over the particles at a surface of a body.");
+      surfaceSchema("pressure",
+                    "Force per area, distributed evenly over the particles at a surface of a body. They share the "
+                    "force on the whole shape, even if the body has only a part of its surface.");
   static const Schema<SurfaceSection> torque =
       surfaceSchema("torque",
                     "A torque about the axis of a cylinder, distributed evenly over the particles at its side.")
@@ -178,22 +182,64 @@ const Schema<PhysicalBC>& loadsSchema() {
 
 }  // namespace
 
-Loads readLoads(const Element& root, bool usesCurves, Diagnostics& diagnostics) {
+namespace {
+
+/// The tags of loads with a name.
+std::vector<Element> tagsOf(const Element& root, std::string_view name) {
+  const auto section = root.child("PhysicalBC"), mpm = section ? section->child("MPM") : std::nullopt;
+  return mpm ? mpm->children(name) : std::vector<Element>{};
+}
+
+void noteUnusedCurves(const Element& root, Diagnostics& diagnostics) {
+  for (const char* name : {"pressure", "torque", "heat_flux"})
+    for (const Element& tag : tagsOf(root, name))
+      diagnostics.note(tag, "has no effect without <use_load_curves> true in <MPM>, as in Uintah");
+}
+
+/// Refuses surfaces that are not symmetric about the axis, and adds notes on those whose area is not per radian.
+void checkAroundAxis(const Element& tag, const SurfaceSection& load, Diagnostics& diagnostics) {
+  if (const auto* sphere = std::get_if<input::Sphere>(&*load.surface); sphere && sphere->origin[0] != 0)
+    diagnostics.error(tag, fmt::format("sphere: its centre is at x = {:g} m; with <axisymmetric> it must lie on the "
+                                       "axis, x = 0",
+                                       sphere->origin[0]));
+  const auto* cylinder = std::get_if<input::Cylinder>(&*load.surface);
+  if (cylinder && !cylinder->axisymmetricEnd && !cylinder->axisymmetricSide)
+    diagnostics.note(tag, cylinder->cylinderEnd
+                              ? "cylinder_end: the load of the whole end, pi R^2, acts on one radian, as in Uintah: 2 "
+                                "pi times as much as its part; <axisymmetric_end> takes R^2 / 2"
+                              : "cylinder: the load of the whole circumference acts on one radian, as in Uintah: 2 pi "
+                                "times as much as its part; <axisymmetric_side> takes a radian of it");
+}
+
+}  // namespace
+
+Loads readLoads(const Element& root, const LoadSwitches& switches, Diagnostics& diagnostics) {
   Loads loads;
   const LoadsSection read = simulation::readOptionalSection(root, loadsSchema(), diagnostics).mpm;
   loads.bodies = read.forces;
-  const auto add = [&](const std::vector<SurfaceSection>& sections, SurfaceLoad::Kind kind) {
-    for (const SurfaceSection& one : sections) {
-      if (!one.surface || !usesCurves) continue;
+  const std::vector<Element> forces = tagsOf(root, "force");
+  for (std::size_t k = 0; k < std::min(forces.size(), loads.bodies.size()); ++k)
+    loads.bodies[k].where = forces[k].where();
+  if (!switches.usesCurves) {
+    noteUnusedCurves(root, diagnostics);
+    return loads;
+  }
+  const auto add = [&](const std::vector<SurfaceSection>& sections, const char* name, SurfaceLoad::Kind kind) {
+    const std::vector<Element> tags = tagsOf(root, name);
+    for (std::size_t k = 0; k < std::min(tags.size(), sections.size()); ++k) {
+      const SurfaceSection& one = sections[k];
+      if (!one.surface) continue;
+      if (switches.aroundAxis && kind != LoadKind::torque) checkAroundAxis(tags[k], one, diagnostics);
       SurfaceLoad load{kind, *one.surface, {}, one.curve.material.value_or(-1), one.where};
       load.outwardNormal = one.outwardNormal.value_or(true);
+      load.aroundAxis = switches.aroundAxis;
       for (const TimePoint& point : one.curve.points) load.curve.points.emplace_back(point.time, point.load);
       loads.surfaces.push_back(load);
     }
   };
-  add(read.pressures, LoadKind::pressure);
-  add(read.torques, LoadKind::torque);
-  add(read.heatFluxes, LoadKind::heatFlux);
+  add(read.pressures, "pressure", LoadKind::pressure);
+  add(read.torques, "torque", LoadKind::torque);
+  add(read.heatFluxes, "heat_flux", LoadKind::heatFlux);
   return loads;
 }
 

@@ -4,6 +4,7 @@
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/problem.hpp"
 #include "core/grid/nodes_of_sides.hpp"
 
 namespace tushar::mpm::solid {
@@ -42,33 +43,37 @@ void measureBoundary(const Patch& patch, const Material& material, int face, Nod
 }
 
 /// Measures force and area on a side normal to an axis that the grid does not use; the stress of every particle acts on
-/// this side.
-inline void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
-                                ParticleView<const Matrix3> stress,
-                                const std::optional<ParticleView<const double>>& viscosity, VectorSum& total,
-                                Sum& area) {
+/// this side. With `radii`, in axisymmetric scenes, the sides z- and z+ are the planes through the axis that bound a
+/// radian: a particle covers the area V / r of them.
+template <int D>
+void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
+                         ParticleView<const Matrix3> stress, const std::optional<ParticleView<const double>>& viscosity,
+                         const std::optional<ParticleView<const Vec<D>>>& radii, VectorSum& total, Sum& area) {
   const double width = patch.level().cellWidth(face / 2), sign = face % 2 == 0 ? -1.0 : 1.0;
   if (width <= 0) return;
+  const auto areaOf = [&](int p) { return volume[p] / (radii ? (*radii)[p][0] : width); };
   const int count = volume.owned();
   const std::array<Sum*, 3> sums{&total.x, &total.y, &total.z};
   for (int axis = 0; axis < 3; ++axis)
     WideSum(*sums[axis]).addAll(count, [&](int p) {
       const double viscous = viscosity && axis == face / 2 ? (*viscosity)[p] : 0.0;
-      return sign * volume[p] / width * (stress[p](axis, face / 2) - viscous);
+      return sign * areaOf(p) * (stress[p](axis, face / 2) - viscous);
     });
-  WideSum(area).addAll(count, [&](int p) { return volume[p] / width; });
+  WideSum(area).addAll(count, areaOf);
 }
 
 /// Measures forces and areas on all six sides of the scene; `volume` and `stress` read those of particles, `isViscous`
 /// tells whether they have a viscous pressure.
 template <int D, class Volume, class Stress>
-void scheduleBoundaryForces(TaskList& tasks, const std::vector<Material>& materials, const std::array<bool, 3>& isThin,
-                            Volume volume, Stress stress, bool isViscous = false) {
+void scheduleBoundaryForces(TaskList& tasks, const Problem& problem, Volume volume, Stress stress,
+                            bool isViscous = false) {
+  const std::vector<Material>& materials = problem.materials;
   for (int face = 0; face < 6; ++face) {
-    if (isThin[face / 2])
-      tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary, materials, with(face), volume, stress,
-                        when(isViscous, requiresOld(p::viscosity)), computes(total::onFaces[face].force),
-                        computes(total::onFaces[face].area));
+    if (problem.method.isThin[face / 2])
+      tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary<D>, materials, with(face), volume, stress,
+                        when(isViscous, requiresOld(p::viscosity)),
+                        when(problem.start.axisymmetric && face / 2 == 2, requiresOld(p::x<D>)),
+                        computes(total::onFaces[face].force), computes(total::onFaces[face].area));
     else
       tasks.perMaterial("mpm::measureBoundary", measureBoundary<D>, materials, with(face),
                         requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::onFaces[face].force),

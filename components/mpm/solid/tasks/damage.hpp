@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cmath>
+#include <optional>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/problem.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
@@ -47,7 +51,9 @@ inline void showSound(const Patch&, const Material&, ParticleView<const double> 
 }
 
 /// Views of the particles whose damage grows in a step.
+template <int D>
 struct DamageGrowth {
+  std::optional<ParticleView<const Vec<D>>> x;  ///< positions, in axisymmetric scenes
   ParticleView<const Matrix3> oldDeformation;
   ParticleView<const double> temperature, oldDamage, oldThreshold;
   ParticleView<const int> oldLocalized;
@@ -60,8 +66,9 @@ struct DamageGrowth {
   ParticleView<int> localized;
   ParticleView<double> failureTime;
 
-  static DamageGrowth from(auto& take, const ParticleLabel<double>* state) {
-    return {.oldDeformation = take(requiresOld(p::deformationMeasure)),
+  static DamageGrowth from(auto& take, const ParticleLabel<double>* state, bool axisymmetric) {
+    return {.x = take(when(axisymmetric, requiresOld(p::x<D>))),
+            .oldDeformation = take(requiresOld(p::deformationMeasure)),
             .temperature = take(requiresOld(p::temperature)),
             .oldDamage = take(requiresOld(p::damage)),
             .oldThreshold = take(requiresOld(p::failureThreshold)),
@@ -76,10 +83,15 @@ struct DamageGrowth {
             .localized = take(computes(p::localized)),
             .failureTime = take(computes(p::failureTime))};
   }
+
+  /// The size of a particle [m]: the cube root of its volume or, in axisymmetric scenes, where volumes are per radian,
+  /// the square root of its area in the plane.
+  double sizeOf(int p) const { return x ? std::sqrt(volume[p] / (*x)[p][0]) : std::cbrt(volume[p]); }
 };
 
 /// Whether the plastic flow of a particle has become unstable in the step, judged by the stress before damage.
-inline bool isUnstable(const Material& material, int p, int stateSize, double dt, const DamageGrowth& d) {
+template <int D>
+bool isUnstable(const Material& material, int p, int stateSize, double dt, const DamageGrowth<D>& d) {
   if (!material.erosion.acts() || !d.state || !material.model->checksStability()) return false;
   const Matrix3& f = d.deformation[p];
   const Matrix3 velocityGradient = (f * d.oldDeformation[p].inverse() - Matrix3::Identity()) / dt;
@@ -89,13 +101,14 @@ inline bool isUnstable(const Material& material, int p, int stateSize, double dt
 
 /// Computes damage at the end of the step, and the stress that damaged and failed particles still support: Uintah's
 /// computeBasicDamage and updateErosionParameter.
-inline void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,
-                          const DamageGrowth& d) {
+template <int D>
+void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,
+                   const DamageGrowth<D>& d) {
   const int rate = offsetOf(*material.model, "p.plasticStrainRate");
   const MaterialConstants constants = material.constants();
   for (int p = 0; p < d.stress.owned(); ++p) {
     const double plasticStrainRate = rate < 0 ? 0.0 : (&(*d.state)[0])[p * stateSize + rate];
-    const DamageConditions conditions{d.deformation[p], d.volume[p], plasticStrainRate,
+    const DamageConditions conditions{d.deformation[p], d.sizeOf(p), plasticStrainRate,
                                       d.temperature[p], dt,          material.erosion.acts()};
     DamageState now{d.oldDamage[p], d.oldThreshold[p], d.oldLocalized[p] != 0};
     const bool losesStability = !now.hasFailed && isUnstable(material, p, stateSize, dt, d);
@@ -112,10 +125,10 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
 }
 
 /// Adds the tasks for damage; `state` contains the internal variables of the constitutive models.
-inline void scheduleDamage(TaskList& tasks, const std::vector<Material>& materials,
-                           const ParticleLabel<double>& state) {
-  tasks.perMaterial("mpm::computeDamage", computeDamage, materials, with(state.components), startTime(),
-                    requiresOld(delT), all<DamageGrowth>(&state));
+template <int D>
+void scheduleDamage(TaskList& tasks, const Problem& problem, const ParticleLabel<double>& state) {
+  tasks.perMaterial("mpm::computeDamage", computeDamage<D>, problem.materials, with(state.components), startTime(),
+                    requiresOld(delT), all<DamageGrowth<D>>(&state, problem.start.axisymmetric));
 }
 
 }  // namespace tushar::mpm::solid

@@ -168,20 +168,62 @@ void computeInternalHeatRate(const Patch& patch, const Material& material, const
                              });
 }
 
-/// Equalises the temperatures of the materials at a node: all get the mean weighted by their heat capacities.
+/// Gives the materials at a node one temperature before they conduct: the mean weighted by their heat capacities. So
+/// two bodies that touch conduct as one.
 template <int D>
-void computeHeatExchange(const Patch&, const std::vector<Material>&,
-                         const std::vector<NodeView<const double>>& capacity,
-                         const std::vector<NodeView<const double>>& temperature, double dt,
-                         const std::vector<NodeView<double>>& rate) {
-  forEach<D>(capacity.front().box(), [&](const Index<D>& node) {
+void shareTemperature(const Patch&, const std::vector<Material>&, const std::vector<NodeView<const double>>& capacity,
+                      const std::vector<NodeView<double>>& temperatureNoBC,
+                      const std::vector<NodeView<double>>& temperature) {
+  const auto equalise = [&](const std::vector<NodeView<double>>& field, const Index<D>& node) {
     double heat = 0, total = 0;
     for (std::size_t m = 0; m < capacity.size(); ++m) {
-      heat += capacity[m][node] * temperature[m][node];
+      heat += capacity[m][node] * field[m][node];
       total += capacity[m][node];
     }
     for (std::size_t m = 0; m < capacity.size(); ++m)
-      rate[m][node] = total > 0 ? (heat / total - temperature[m][node]) / dt : 0.0;
+      if (capacity[m][node] > 0 && capacity[m][node] < total) field[m][node] = heat / total;
+  };
+  forEach<D>(capacity.front().box(), [&](const Index<D>& node) {
+    equalise(temperatureNoBC, node);
+    equalise(temperature, node);
+  });
+}
+
+/// Views of the heat of a material at nodes.
+struct HeatOfMaterial {
+  NodeView<const double> capacity, heatRate, subgridChange;
+  std::optional<NodeView<const double>> frictionHeat;  ///< heat of friction [J], if friction produces heat
+
+  static HeatOfMaterial from(auto& take, bool hasFriction) {
+    return {.capacity = take(requiresNew(g::heatCapacity)),
+            .heatRate = take(requiresNew(g::heatRate)),
+            .subgridChange = take(requiresNew(g::subgridTemperatureChange)),
+            .frictionHeat = take(when(hasFriction, requiresNew(g::frictionHeat)))};
+  }
+  /// The heat that the material gains in a step [J], without what its particles conduct within cells.
+  template <int D>
+  double gain(const Index<D>& node, double dt) const {
+    const double friction = frictionHeat ? (*frictionHeat)[node] : 0.0;
+    return heatRate[node] * dt + friction - capacity[node] * subgridChange[node];
+  }
+};
+
+/// Computes the rates [K/s] with which materials that share a node exchange the heat that they gain in a step, so that
+/// their temperatures change alike. (Uintah equalises temperatures by changing those of particles: a bar that is cut in
+/// two then has a wrong steady temperature, the more so the shorter the steps.)
+template <int D>
+void computeHeatExchange(const Patch&, const std::vector<Material>&, const std::vector<HeatOfMaterial>& materials,
+                         double dt, const std::vector<NodeView<double>>& rate) {
+  forEach<D>(rate.front().box(), [&](const Index<D>& node) {
+    double heat = 0, total = 0;
+    for (const HeatOfMaterial& one : materials) {
+      if (one.capacity[node] > 0) heat += one.gain<D>(node, dt);
+      total += one.capacity[node];
+    }
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+      const double own = materials[m].capacity[node];
+      rate[m][node] = own > 0 && own < total ? (heat / total - materials[m].gain<D>(node, dt) / own) / dt : 0.0;
+    }
   });
 }
 

@@ -27,7 +27,7 @@ JohnsonCookDamage copper() {
 const MaterialConstants constants{8930, 383, 1356, 294};
 
 DamageConditions conditionsOf(const Matrix3& deformation, double rate, double temperature = 294, double dt = 1e-3) {
-  return {deformation, 1e-9, rate, temperature, dt};
+  return {deformation, 1e-3, rate, temperature, dt};
 }
 
 TEST(JohnsonCookDamage, GivesTheFractureStrainOfCopper) {

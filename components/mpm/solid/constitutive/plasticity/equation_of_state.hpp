@@ -47,8 +47,9 @@ struct HyperelasticVolume {
 };
 
 /// The pressure p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 -
-/// J, of a material whose shock velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena
-/// (1999), chapter 3. Uintah has no such model today.
+/// J; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3. The temperature changes by dT = -T Gamma_0 J
+/// tr D dt. Since c_v (T - T_0) lacks the energy of cold compression, the velocity of a shock is U = C_0 + S_alpha u
+/// only for weak shocks. Uintah has no such model today.
 struct MieGruneisen {
   static constexpr std::string_view name = "mie_gruneisen_temperature";
 
@@ -72,7 +73,7 @@ struct MieGruneisen {
     const double cold = s.density * soundSpeed * soundSpeed * eta * (1 - 0.5 * gruneisen * eta) / (spread * spread);
     return -(cold + gruneisen * s.density * s.specificHeat * (s.temperature - s.initialTemperature));
   }
-  double heating(const VolumeState&) const { return 0; }
+  double heating(const VolumeState& s) const { return -s.temperature * gruneisen * s.volume * s.dilatation; }
 };
 
 /// The pressure p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e

@@ -78,7 +78,7 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
 }
 
 /// Computes the strain energy of particles starting with `first` from its density [J/m^3 of the volume at F = I]; 0 for
-/// failed particles.
+/// failed particles that lose stress.
 template <int D>
 void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
@@ -87,7 +87,7 @@ void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const
   const int* const localized = valuesOf(u.localized);
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
-    const bool bears = !localized || !localized[p];
+    const bool bears = !localized || !localized[p] || material.erosion.keepsStress();
     energy[p] = bears ? density[k] * u.mass[p] / undeformed : 0.0;
   }
 }
