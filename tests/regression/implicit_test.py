@@ -69,8 +69,8 @@ MASTER = """<Uintah_specification><SimulationComponent type="impm"/>
 <direction>[1,1,0]</direction><filename>motion.txt</filename></contact></MPM></MaterialProperties>
 <Grid><BoundaryConditions><Face side="z-"><BCType id="all" label="Symmetric" var="symmetry"/></Face>
 <Face side="z+"><BCType id="all" label="Symmetric" var="symmetry"/></Face></BoundaryConditions>
-<Level><Box label="all"><lower>[0,0,0]</lower><upper>[1.2,.8,.05]</upper><resolution>[24,16,1]</resolution></Box></Level>
-</Grid><DataArchiver><filebase>master.uda</filebase><save label="TotalMomentum"/><save label="KineticEnergy"/>
+<Level><Box label="all"><lower>[0,0,0]</lower><upper>[1.2,.8,.05]</upper><resolution>[24,16,1]</resolution></Box>
+</Level></Grid><DataArchiver><filebase>master.uda</filebase><save label="TotalMomentum"/><save label="KineticEnergy"/>
 <save label="CenterOfMassPosition"/></DataArchiver></Uintah_specification>"""
 
 
