@@ -10,13 +10,12 @@
 
 namespace tushar::mpm::solid {
 
-/// The number of cells that the fastest of several waves crosses per second; NaN if a speed is NaN.
+/// The number of cells that the fastest of several waves crosses per second, along the axes in use; NaN if a speed is
+/// NaN. (In Uintah, an axis with one cell counts, too.)
 template <int D>
 class CrossingRate {
  public:
   explicit CrossingRate(const Level& level) {
-    for (int axis = 0; axis < 3; ++axis)
-      if (const double h = level.cellWidth(axis); h > 0) inverse_width_ = std::max(inverse_width_, 1 / h);
     for (int d = 0; d < D; ++d) inverse_spacing_[d] = level.inverseSpacing(d);
   }
 
@@ -29,7 +28,6 @@ class CrossingRate {
       const std::array<Lanes, D> velocity = vectorsOf<D>(v + k, left);
       const Lanes speed = left >= Lanes::count ? Lanes::at(c + k)
                                                : Lanes::of([&](int lane) { return c[k + std::min(lane, left - 1)]; });
-      rates_ = greater(rates_, speed * inverse_width_);
       for (std::size_t d = 0; d < D; ++d)
         rates_ = greater(rates_, (speed + abs(velocity[d])) * inverse_spacing_[static_cast<int>(d)]);
     }
@@ -44,7 +42,6 @@ class CrossingRate {
     return select(so_far > other, so_far, select(isNaN(so_far), so_far, other));
   }
 
-  double inverse_width_ = 0;
   Lanes rates_ = 0.0;
   Vec<D> inverse_spacing_;
 };
