@@ -23,7 +23,7 @@ void ParticleInstaller::makeSets(const OnPatches& onPatches) {
           warehouse_->variable(Generation::fresh, numberOfIds(), patch.id()).values);
     maker.makeSet(set, patch, warehouse_->table().reach(material_), ids);
   });
-  if (!keeps_all_) warehouse_->layOut(Generation::fresh, material_, Generation::fresh);
+  warehouse_->layOut(Generation::fresh, material_, Generation::fresh);
 }
 
 template <class WriteOne>

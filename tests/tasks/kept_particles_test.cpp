@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/tasks/particle_maker.hpp"
@@ -55,6 +56,10 @@ void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vect
       Values{at, marks, others}.add(maker, cell, 2 * patch.level().cellNumber(cell) + k,
                                     patch.level().cellCentre<2>(cell));
   });
+}
+
+void stay(const Patch&, const Material&, ParticleView<const Vec<2>> from, ParticleView<Vec<2>> to) {
+  for (int p = 0; p < from.owned(); ++p) to[p] = from[p];
 }
 
 enum class How { keeping, addingAll };
@@ -121,12 +126,7 @@ Found changed(int removed, How how, const Index3& patches) {
   int step = 0;
   TaskList start, advance;
   start.newParticles("create", create, gas, creates(x), creates(mark), creates(more));
-  advance.perMaterial(
-      "stay",
-      [](const Patch&, const Material&, ParticleView<const Vec<2>> from, ParticleView<Vec<2>> to) {
-        for (int p = 0; p < from.owned(); ++p) to[p] = from[p];
-      },
-      gas, requiresOld(x), computes(x));
+  advance.perMaterial("stay", stay, gas, requiresOld(x), computes(x));
   advance.relocate(x, gas);
   advance.newParticles("change", change, gas, with(removed), with(how), with(&step), requiresNew(x, 1),
                        requiresNew(data::particleId, 1), requiresNew(mark), requiresNew(more), creates(x),
@@ -136,6 +136,50 @@ Found changed(int removed, How how, const Index3& patches) {
   run.step(begin);
   for (; step < 30; ++step) run.step(next);
   return found(run);
+}
+
+/// The greatest index of a particle or ghost on a periodic grid in three steps in which all particles are kept by a
+/// task that reads `reach` layers of ghosts.
+double furthestWith(int reach) {
+  grid::Domain domain = test::domain({{6, 5, 1}});
+  domain.periodic = {true, true, false};
+  test::Runner run(domain);
+  constexpr data::ReductionLabel<data::Maximum> furthest{"furthest", "1", "greatest index"};
+  TaskList start, advance;
+  start.newParticles(
+      "create",
+      [](const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<2>>& at) {
+        forEach<2>(patch.cells(), [&](const Index<2>& cell) {
+          maker.add(cell, patch.level().cellNumber(cell));
+          at.push_back(patch.level().cellCentre<2>(cell));
+        });
+      },
+      gas, creates(x));
+  advance.perMaterial("stay", stay, gas, requiresOld(x), computes(x));
+  advance.relocate(x, gas);
+  advance.newParticles(
+      "keep",
+      [](const Patch&, const Material&, ParticleMaker& maker, ParticleView<const Vec<2>>, std::vector<Vec<2>>&) {
+        maker.keepAll();
+      },
+      gas, requiresNew(x, reach), creates(x));
+  advance.perMaterial(
+      "look",
+      [](const Patch&, const Material&, ParticleView<const Vec<2>> at, data::Maximum& last) {
+        forEach<2>(at.cells(), [&](const Index<2>& cell) {
+          for (const int p : at.in(cell)) last.add(p);
+        });
+      },
+      gas, requiresNew(x, 1), computes(furthest));
+  TaskGraph begin = run.compile(start, {"p.x", "p.particleID"});
+  TaskGraph next = run.compile(advance, {"p.x", "furthest"}, true);
+  run.step(begin);
+  double last = 0;
+  for (int k = 0; k < 3; ++k) {
+    run.step(next);
+    last = std::max(last, run.warehouse.reductionValues(run.table.find("furthest", -1)).at(0));
+  }
+  return last;
 }
 
 }  // namespace
@@ -155,6 +199,12 @@ TEST(KeptParticles, DoNotDependOnPatches) {
   const Found one = changed(30, How::keeping, {{1, 1, 1}}), many = changed(30, How::keeping, {{5, 3, 1}});
   EXPECT_GT(one.at.size(), 100);
   EXPECT_TRUE(one.at == many.at);
+}
+
+/// Ghosts that were read before take no space besides those that are read afterwards.
+TEST(KeptParticles, DoNotGatherGhosts) {
+  EXPECT_GT(furthestWith(0), 40);
+  EXPECT_EQ(furthestWith(1), furthestWith(0));
 }
 
 }  // namespace tushar::tasks
