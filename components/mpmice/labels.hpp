@@ -104,6 +104,8 @@ inline constexpr CellLabel<double> wallHeat{"c.heatToWalls", "J/m^3", "heat from
 inline constexpr CellLabel<double> bodyCapacity{"c.bodyCapacity", "J/(m^3 K)", "heat capacity of bodies"};
 inline constexpr CellLabel<double> bodyTemperature{"c.bodyTemperature", "K",
                                                    "mean temperature of bodies, weighted by heat capacity"};
+inline constexpr CellLabel<double> wallWarming{"c.warmingByWalls", "K",
+                                               "change of the temperature of bodies in the step, by conduction"};
 /// Labels of each body that exchanges heat by coefficients, and of each gas.
 inline constexpr CellLabel<double> capacityOfBody{"c.capacityOfBody", "J/(m^3 K)", "heat capacity of the body"};
 inline constexpr CellLabel<double> temperatureOfBody{"c.temperatureOfBody", "K",

@@ -289,12 +289,11 @@ template <int D>
 void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 2, .room = 2};
   tasks.acrossMaterials("mpmice::measureBodyHeat", measureBodyHeat<D>, materials, with(settings_),
-                        all<HeatOfParticles>(), withoutMaterial(all<BodyHeat>()));
+                        withoutMaterial(all<GasNearby>()), all<HeatOfParticles<D>>(), withoutMaterial(all<BodyHeat>()));
   tasks.perPatch("mpmice::conductFromGas", conductFromGas<D>, with(settings_), gasIn(readsOld, reach),
-                 all<KnownBodyHeat>(), requiresOld(delT), modifies(c::unsharedEnergy), computes(c::wallHeat));
-  tasks.acrossMaterials("mpmice::conductToBodies", conductToBodies<D>, materials, with(settings_),
-                        withoutMaterial(gasIn(readsOld, reach)), withoutMaterial(all<KnownBodyHeat>()),
-                        requiresOld(delT), modifies(p::temperature));
+                 all<KnownBodyHeat>(), requiresOld(delT), modifies(c::unsharedEnergy), all<WallHeats>());
+  tasks.acrossMaterials("mpmice::conductToBodies", conductToBodies<D>, materials, with(settings_), all<OldBoxes<D>>(),
+                        withoutMaterial(requiresNew(c::wallWarming, reachAtStart)), modifies(p::temperature));
 }
 
 template <int D>

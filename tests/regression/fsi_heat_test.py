@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Heat by exchange coefficients between bodies and gases: the same wherever in a cell a surface is, conserved, and with
-the same bits on any layout."""
+"""Heat between bodies and gases, by exchange coefficients and by conduction: the same wherever in a cell a surface is,
+conserved, and with the same bits on any layout."""
 import pathlib
 import sys
 import unittest
@@ -114,7 +114,44 @@ class Coefficients(SceneTest):
             self.assertLess(drift, 1e-14, heat)
 
 
+class Conduction(SceneTest):
+    """The gas of lines conducts heat to bodies, beside what they exchange by coefficients, which hardly acts here."""
+
+    def scene_of(self, bodies, conductivity):
+        heat = [1e-9] * (len(bodies) * (len(bodies) + 1) // 2)
+        text = line(bodies, heat)
+        last = text.rindex("<thermal_conductivity>0<")
+        return self.scene(text[:last] + text[last:].replace("<thermal_conductivity>0<",
+                                                            f"<thermal_conductivity>{conductivity}<", 1))
+
+    def test_conserves_heat(self):
+        """Of a thick body, of two that share cells, and of one that is thinner than a cell."""
+        for conductivity in (.25, 1e4):
+            for bodies in ([slab(6.3, 12.7)], [slab(4, 8.5, temperature=1.5), slab(8.5, 12)], [slab(7.8, 8.3)]):
+                found = globals_of(self.scene_of(bodies, conductivity), "GasHeatToBodies", "TotalEnergy",
+                                   sets=("Time/max_Timesteps=400",))
+                energies = [row[1] for row in found["TotalEnergy"]]
+                self.assertLess(max(abs(one / energies[0] - 1) for one in energies), 1e-14)
+                self.assertGreater(-found["GasHeatToBodies"][-1][1], 1e-5)
+
+    def test_is_that_of_half_a_cell_of_gas_wherever_the_surface_is(self):
+        """The first step: k A / (h / 2 of the gas in the cell or, if the cell is small, of it and its neighbour)."""
+        for shift, layer in ((0, 1), (.25, .75), (.75, 1.25)):
+            found = globals_of(self.scene_of([slab(6 + shift, 12 + shift)], .25), "GasHeatToBodies",
+                               sets=("Time/max_Timesteps=1", "Time/delt_max=1e-6"))["GasHeatToBodies"]
+            mirrored = {1: 1, .75: 1.25, 1.25: .75}[layer]  # at the other end of the body
+            exact = .25 * found[-1][0] * (1 / (.5 * .05 * layer) + 1 / (.5 * .05 * mirrored))
+            self.assertLess(abs(-found[-1][1] / exact - 1), 1e-3, shift)
+
+
 class Bits(SceneTest, SameBitsTest):
+    def test_of_conduction_are_the_same_on_any_layout(self):
+        text = warm_discs(Image())
+        last = text.rindex("<thermal_conductivity>0<")
+        warm = text[last:].replace("<thermal_conductivity>0<", "<thermal_conductivity>.02<")
+        scene = self.scene(text[:last] + warm)
+        self.assert_same(scene, 30, ("[1,1,1]", "[4,3,1]", "[8,4,1]"), ranks=3)
+
     def test_are_the_same_on_any_layout(self):
         self.assert_same(self.scene(warm_discs(Image())), 30, ("[1,1,1]", "[4,3,1]", "[8,4,1]"), ranks=3)
 

@@ -17,18 +17,19 @@ SCENE = """<Uintah_specification>
 <DataArchiver><filebase>s.uda</filebase><outputLastTimestep/><save label="p.velocity"/><save label="c.velocity"/>
 <save label="c.pressure"/></DataArchiver>
 <CFD><cfl>.3</cfl><ICE><advection type="FirstOrder"/></ICE></CFD>
-<MPM><time_integrator>explicit</time_integrator><interpolator>linear</interpolator></MPM>
+<MPM><time_integrator>explicit</time_integrator><interpolator>{shapes}</interpolator></MPM>
 <PhysicalConstants><gravity>[0,0,0]</gravity><reference_pressure>1</reference_pressure></PhysicalConstants>
 <MaterialProperties><MPM>{bodies}</MPM>
 <ICE><material name="gas"><EOS type="ideal_gas"/><gamma>1.4</gamma><specific_heat>2.5</specific_heat>
-<dynamic_viscosity>0</dynamic_viscosity><thermal_conductivity>0</thermal_conductivity>
+<dynamic_viscosity>0</dynamic_viscosity><thermal_conductivity>{conductivity}</thermal_conductivity>
 <geom_object><box label="all"><min>[-9,-9,-9]</min><max>[9,9,9]</max></box>
 <density>1 + .3*sin(5*(x - {x})) + .2*cos(4*y)</density><temperature>1 + .2*sin(3*y + 2*z)</temperature>
 <velocity>[.3*sin(4*y),.2*cos(5*(x - {x})),{upward}]</velocity></geom_object></material></ICE>
-<exchange_properties><exchange_coefficients><momentum>{walls}</momentum><heat>{none}</heat></exchange_coefficients>
+<exchange_properties><exchange_coefficients><momentum>{walls}</momentum><heat>{heat}</heat></exchange_coefficients>
 </exchange_properties></MaterialProperties></Uintah_specification>"""
 BODY = """<material name="{}"><density>5</density><constitutive_model type="comp_neo_hook">
-<bulk_modulus>20</bulk_modulus><shear_modulus>5</shear_modulus></constitutive_model>
+<bulk_modulus>20</bulk_modulus><shear_modulus>5</shear_modulus></constitutive_model><specific_heat>1</specific_heat>
+<thermal_conductivity>0</thermal_conductivity>
 <geom_object>{}<res>{}</res><velocity>{}</velocity></geom_object></material>"""
 
 
@@ -36,10 +37,11 @@ def box(name, low, high):
     return f'<box label="{name}"><min>{list(low)}</min><max>{list(high)}</max></box>'
 
 
-def state_of(bodies, x=0, steps=1, **grid):
+def state_of(bodies, x=0, steps=1, shapes="linear", conductivity=0, heat=0, **grid):
     """Returns pressures of the gas, velocities of the gas, and velocities of particles, by column."""
     pairs = len(bodies) * (len(bodies) + 1) // 2
-    text = SCENE.format(x=x, steps=steps, bodies="".join(bodies), walls=[1e15] * pairs, none=[0] * pairs, **grid)
+    text = SCENE.format(x=x, shapes=shapes, steps=steps, bodies="".join(bodies), walls=[1e15] * pairs,
+                        heat=[heat] * pairs, conductivity=conductivity, **grid)
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder, "scene.ups")
         scene.write_text(text)
@@ -68,6 +70,22 @@ class RoundOff(unittest.TestCase):
         expected = self.grain(0, 0)
         for x, y in ((-1e-8, 0), (0, -1e-8), (-1e-8, -1e-8), (1e-8, 1e-8)):
             self.assert_close(self.grain(x, y), expected, 1e-6)
+
+    def warm_grain(self, shift):
+        """A grain of half a cell, a particle whose centre is on a face if there is no shift."""
+        of = box("grain", (.25, .5, 0), (.3125, .5625, .2))
+        of += f"<affineTransformation_b>[{shift - .03125},0,0]</affineTransformation_b>"
+        body = BODY.format("grain", of, "[2,2,1]", "[0,.2,0]").replace("</geom_object>", "<temperature>2</temperature>"
+                                                                       "</geom_object>")
+        return state_of([body], steps=3, shapes="gimp", conductivity=.1, heat=5, end=1.25, height=1, depth=.125,
+                        cells="[10,8,1]", upward=0)
+
+    def test_of_the_place_of_a_warm_grain(self):
+        """Until 30 November 2026, the gas conducted heat to particles by the cells of their centres, and p changed by
+        1.4e-2."""
+        expected = self.warm_grain(0)
+        for shift in (-1e-15, 1e-15, -1e-13, 1e-13):
+            self.assert_close(self.warm_grain(shift), expected, 1e-11)
 
     def two_bodies(self, x):
         ball = f'<sphere label="ball"><origin>[{.35 + x},.37,.42]</origin><radius>.21</radius></sphere>'

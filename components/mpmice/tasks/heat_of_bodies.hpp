@@ -20,6 +20,11 @@ void forEachPart(const Level& level, const Index<D>& origin, const ParticleBox<D
     reach.lower[d] = least;
     reach.upper[d] = static_cast<int>(std::floor(box.middle[d] + 0.5 * box.edges[d])) + 1;
   }
+  if (reach.size() == 1 && !level.boxes()) {
+    Index<D> only = origin;
+    for (int d = 0; d < D; ++d) only[d] += reach.lower[d];
+    return visit(nearestOnGrid<D>(level, only), 1.0);
+  }
   const auto forEachVolume = [&](auto&& use) {
     forEach<D>(reach, [&](const Index<D>& at) {
       double volume = 1;
@@ -94,6 +99,15 @@ void measureHeatOfBody(const Patch& patch, const mpm::solid::Material& material,
   });
 }
 
+/// The mean of a number of cells over a box, whose coordinates are relative to the cell `origin`.
+template <int D>
+double meanOver(const Level& level, const Index<D>& origin, const ParticleBox<D>& box,
+                const CellView<const double>& numbers) {
+  double mean = 0;
+  forEachPart<D>(level, origin, box, [&](const Index<D>& at, double part) { mean += part * numbers[at]; });
+  return mean;
+}
+
 /// Adds to the temperature of each particle the mean of c.warming over its box.
 template <int D>
 void warmBody(const Patch& patch, const mpm::solid::Material&, ParticleView<const Vec<D>> x,
@@ -102,10 +116,7 @@ void warmBody(const Patch& patch, const mpm::solid::Material&, ParticleView<cons
   forEachCell<D>(level, x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, const auto& range) {
     for (const int p : range) {
       if (x[p][0] == data::removed) continue;
-      double change = 0;
-      forEachPart<D>(level, cell, boxAtEnd<D>(frame, x[p], edges[p]),
-                     [&](const Index<D>& at, double part) { change += part * warming[at]; });
-      temperature[p] += change;
+      temperature[p] += meanOver<D>(level, cell, boxAtEnd<D>(frame, x[p], edges[p]), warming);
     }
   });
 }
