@@ -5,6 +5,10 @@
 
 namespace tushar::mpmice {
 
+/// The fraction of a face from which on bodies that move through it determine how its walls move. If they take less of
+/// it, the velocity of the nodes also counts, so that a box that touches a face by round-off decides nothing.
+inline constexpr double sureArea = 1e-4;
+
 /// Views of the effects of bodies on the gas in a step: by their walls, and by changes of free volumes and faces.
 template <int D>
 struct BodiesInStep {
@@ -21,6 +25,16 @@ struct BodiesInStep {
             .leaving = take(when(opensAtSides, requiresNew(c::leaving<D>, 2)))};
   }
 
+  /// The displacement of the walls at the lower face of a cell, in cells: that of the bodies that move through the face
+  /// or, if these take hardly any of its area, in part that of the nodes, `ofNodes()`.
+  template <class OfNodes>
+  double shiftAt(const Index<D>& above, int axis, OfNodes&& ofNodes) const {
+    const double by = sweptBy[above][axis];
+    const double part = by == c::notSwept ? 0 : std::abs(swept[above][axis]) / (sureArea * std::abs(by));
+    if (part >= 1) return by;
+    const double other = ofNodes();
+    return part > 0 ? other + part * (by - other) : other;
+  }
   /// Whether a cell is a hole in a body: it has little free volume, and no cell up to two cells away is mostly free.
   bool isClosedPore(const Level& level, const Index<D>& cell) const {
     if (!(newFree[cell] < narrowFreeVolume)) return false;

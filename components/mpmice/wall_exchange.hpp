@@ -160,9 +160,8 @@ class WallExchange {
   }
   double findFollowingUp(const Index<D>& above, int axis) const {
     const double covered = std::max(1 - space_.aperture(above, axis, 0), nodes_.coverageAt(above, axis));
-    const double by = step_.sweptBy[above][axis];
-    const double shift =
-        by == c::notSwept ? nodes_.speedsAt(above, axis).after * dt_ * level_.inverseSpacing(axis) : by;
+    const double shift = step_.shiftAt(
+        above, axis, [&] { return nodes_.speedsAt(above, axis).after * dt_ * level_.inverseSpacing(axis); });
     const double up = covered * shift - step_.swept[above][axis];
     const bool isIntoEmpty = space_.isEmpty(up > 0 ? above : above - Index<D>::unit(axis));
     return std::abs(up) > (isIntoEmpty ? roundOffOfEdges : roundOffOfSweeps) ? up : 0;

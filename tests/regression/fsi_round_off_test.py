@@ -87,6 +87,23 @@ class RoundOff(unittest.TestCase):
         for shift in (-1e-15, 1e-15, -1e-13, 1e-13):
             self.assert_close(self.warm_grain(shift), expected, 1e-11)
 
+    def edge(self, x, y, steps):
+        """A grain of 1 x 1.75 cells that moves along the faces on which its sides are, if there is no shift."""
+        of = box("grain", (.25, .5, 0), (.375, .71875, .2))
+        of += f"<affineTransformation_b>[{x},{y + .0625},0]</affineTransformation_b>"
+        body = BODY.format("grain", of, "[4,4,1]", "[.2,-.1,0]")
+        return state_of([body], steps=steps, shapes="gimp", end=1.25, height=1, depth=.125, cells="[10,8,1]",
+                        upward=0)
+
+    def test_of_the_edges_of_a_grain_that_moves(self):
+        """Until 30 November 2026, a box of which 1e-12 of a cell moved through a face determined how the wall there
+        moves, instead of the nodes: a shift by 1e-11 of a cell changed p by 3.6e-5."""
+        for steps in (1, 4):
+            expected = self.edge(0, 0, steps)
+            for shift in (1e-12, 1e-10):
+                for x, y in ((-shift, 0), (shift, 0), (0, -shift), (0, shift)):
+                    self.assert_close(self.edge(x * .125, y * .125, steps), expected, 100 * shift)
+
     def two_bodies(self, x):
         ball = f'<sphere label="ball"><origin>[{.35 + x},.37,.42]</origin><radius>.21</radius></sphere>'
         bodies = [BODY.format("ball", ball, "[2,2,2]", "[.15,-.2,.25]"),

@@ -152,9 +152,6 @@ class Sweeps {
   }
 
  private:
-  /// The volume, in cells, below which a box is not taken to move through a face: round-off decides on which side of
-  /// the face its edge is.
-  static constexpr double roundOffOfEdges = 1e-12;
   /// A number for each cell along one axis of those that a box reaches while it moves.
   using Along = std::array<double, 2 * (boxReach + 2)>;
   static_assert(std::tuple_size_v<Along> % 4 == 0);
@@ -218,7 +215,6 @@ void Sweeps<D>::add(const Index<D>& origin, const ParticleBox<D>& before, const 
       if (up[a][k[a]] == 0) continue;
       const double volume = up[a][k[a]] * meanSection(old, fresh, k, a);
       faces_.volume[cell][a] += volume;
-      if (std::abs(volume) < roundOffOfEdges) continue;
       faces_.shift[cell][a] += std::abs(volume) * (after.middle[a] - before.middle[a]);
       weights[a] += std::abs(volume);
     }
