@@ -27,8 +27,7 @@ struct ColdCurve {
   double pressure(double rho) const {
     if (kind == Kind::linear) return pressureThere + a * (rho / density - 1);
     if (kind == Kind::murnaghan) return murnaghanPressure(rho / density);
-    const double volume = density / rho;
-    return a * std::exp(-r1 * volume) + b * std::exp(-r2 * volume) + tail(volume);
+    return pressureOf(termsAt(rho));
   }
   double energy(double rho) const {
     if (kind == Kind::linear) {
@@ -36,9 +35,7 @@ struct ColdCurve {
       return (pressureThere - a) * (ratio - 1) + a * ratio * std::log(ratio);
     }
     if (kind == Kind::murnaghan) return rho / density * murnaghanEnergy(rho / density);
-    const double volume = density / rho;
-    const double perMass = a / r1 * std::exp(-r1 * volume) + b / r2 * std::exp(-r2 * volume);
-    return rho / density * (perMass + volume / omega * tail(volume));
+    return energyOf(rho, termsAt(rho));
   }
   /// The slope dp/drho [m²/s²].
   double slope(double rho) const {
@@ -50,12 +47,40 @@ struct ColdCurve {
       // distinct.
       return std::max(std::pow(ratio, power - 1), 1e-12) / (compressibility * density);
     }
-    const double volume = density / rho;
-    const double sum = r1 * a * std::exp(-r1 * volume) + r2 * b * std::exp(-r2 * volume);
-    return (volume * sum + (1 + omega) * tail(volume)) / rho;
+    return slopeOf(rho, termsAt(rho));
+  }
+  /// The pressure with the energy, or with the slope, with the same bits as alone; jwl computes its exponentials once.
+  std::pair<double, double> pressureAndEnergy(double rho) const {
+    if (kind != Kind::jwl) return {pressure(rho), energy(rho)};
+    const Terms terms = termsAt(rho);
+    return {pressureOf(terms), energyOf(rho, terms)};
+  }
+  std::pair<double, double> pressureAndSlope(double rho) const {
+    if (kind != Kind::jwl) return {pressure(rho), slope(rho)};
+    const Terms terms = termsAt(rho);
+    return {pressureOf(terms), slopeOf(rho, terms)};
   }
 
  private:
+  /// The volume ratio V, the two exponentials without their factors, and the last term of jwl.
+  struct Terms {
+    double volume, first, second, tail;
+  };
+  Terms termsAt(double rho) const {
+    const double volume = density / rho;
+    return {volume, decay(r1 * volume), decay(r2 * volume), tail(volume)};
+  }
+  double pressureOf(const Terms& of) const { return a * of.first + b * of.second + of.tail; }
+  double energyOf(double rho, const Terms& of) const {
+    const double perMass = a / r1 * of.first + b / r2 * of.second;
+    return rho / density * (perMass + of.volume / omega * of.tail);
+  }
+  double slopeOf(double rho, const Terms& of) const {
+    const double sum = r1 * a * of.first + r2 * b * of.second;
+    return (of.volume * sum + (1 + omega) * of.tail) / rho;
+  }
+  /// exp(-x), which is 0 for greater x, as in thin gas: the function of the library takes several times as long there.
+  static double decay(double x) { return x > 746 ? 0.0 : std::exp(-x); }
   double tail(double volume) const { return c == 0 ? 0.0 : c * std::pow(volume, -1 - omega); }
   double murnaghanPressure(double ratio) const {
     if (ratio < 1) return pressureThere * std::pow(ratio, 1 / (compressibility * pressureThere));
@@ -97,20 +122,26 @@ class CurvedGas {
 
   /// The pressure p [Pa] at a density and an internal energy per volume [J/m³].
   double pressure(double rho, double energy) const {
-    return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gammaAt(rho) * (energy - cold_.energy(rho)));
+    if (isBarotropic()) return cold_.pressure(rho);
+    const auto [coldPressure, coldEnergy] = cold_.pressureAndEnergy(rho);
+    return coldPressure + gammaAt(rho) * (energy - coldEnergy);
   }
   /// The last component of the state with a given density and internal energy per volume.
   double last(double rho, double energy) const {
     return isBarotropic() ? energy - cold_.energy(rho) : pressure(rho, energy);
   }
   double pressureOf(double rho, double last) const { return isBarotropic() ? cold_.pressure(rho) : last; }
-  double energyOf(double rho, double last) const { return cold_.energy(rho) + heat(rho, last); }
+  double energyOf(double rho, double last) const {
+    if (isBarotropic()) return cold_.energy(rho) + last;
+    const auto [coldPressure, coldEnergy] = cold_.pressureAndEnergy(rho);
+    return coldEnergy + (last - coldPressure) / gammaAt(rho);
+  }
   /// The squared speed of sound, c² = p_cold' + (1 + Gamma) (p - p_cold) / rho; if Gamma rho is constant, Gamma
   /// replaces 1 + Gamma.
   double soundSpeedSquared(double rho, double last) const {
-    const double factor = isLinear() ? gammaAt(rho) : 1 + gamma_;
-    const double thermal = isBarotropic() ? 0.0 : factor * (last - cold_.pressure(rho)) / rho;
-    return cold_.slope(rho) + thermal;
+    if (isBarotropic()) return cold_.slope(rho);
+    const auto [coldPressure, slope] = cold_.pressureAndSlope(rho);
+    return slope + (isLinear() ? gammaAt(rho) : 1 + gamma_) * (last - coldPressure) / rho;
   }
   /// The thermal energy per volume; it is greater than 0 in possible states.
   double heat(double rho, double last) const {

@@ -118,6 +118,17 @@ TEST(ColdCurve, StoresTheWorkOfItsPressure) {
     }
 }
 
+TEST(ColdCurve, HasTheSameBitsTogetherAndAlone) {
+  for (const ColdCurve& curve : {jwlCurve(), jwlcCurve(), murnaghanCurve(), linearCurve()})
+    for (double rho = 1e-4 * curve.density; rho < 2 * curve.density; rho *= 1.01) {
+      EXPECT_EQ(curve.pressureAndEnergy(rho), std::pair(curve.pressure(rho), curve.energy(rho))) << rho;
+      EXPECT_EQ(curve.pressureAndSlope(rho), std::pair(curve.pressure(rho), curve.slope(rho))) << rho;
+      if (curve.kind != ColdCurve::Kind::jwl) continue;
+      const double v = curve.density / rho, tail = curve.c == 0 ? 0 : curve.c * std::pow(v, -1 - curve.omega);
+      EXPECT_EQ(curve.pressure(rho), curve.a * std::exp(-curve.r1 * v) + curve.b * std::exp(-curve.r2 * v) + tail);
+    }
+}
+
 TEST(GasLaws, HaveThePressuresOfUintahsScenes) {
   EXPECT_NEAR(jwlc().pressure(1.62605283294106, 0), 101325, 1e-6);
   EXPECT_NEAR(jwlc().pressure(0.295388723220783, 0), 10132.5, 1e-7);
