@@ -6,38 +6,54 @@ namespace tushar::mpmice {
 
 /// The pressure behind the shock that a moving wall drives into a gas of any law, where the velocity jumps by
 /// `closing`: e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends only on the
-/// density, the second equation suffices. Solved by bisection in the density, to round-off.
+/// density, the second equation suffices. Solved for x = v_0 - v, where e = e_0 + p_0 x + closing² / 2, by secants of
+/// sqrt((p - p_0) x), which is almost proportional to x, to 2e-15 rho (c + closing)²; by bisection if it is not.
 /// Weak shocks, in which the volumes differ too little for that, have the pressure of an ideal gas with this speed of
 /// sound: the error is of the order of rho closing², below 1e-12 rho c².
 inline double shockPressure(const euler::Gas& gas, double density, double last, double closing) {
   const double before = gas.pressureOf(density, last), volume = 1 / density;
   const double c2 = gas.soundSpeedSquared(density, last);
-  if (closing * closing < 1e-12 * c2) {
-    const double b = 0.5 * gas.shockSlope() * closing;
-    return before + density * closing * (b + std::sqrt(b * b + c2));
-  }
-  const double energy = gas.energyOf(density, last) * volume;
-  // Behind the shock p = p_0 + closing² / (v_0 - v): solves for the density.
-  const auto behind = [&](double rho) { return before + closing * closing / (volume - 1 / rho); };
-  const auto isTooLow = [&](double rho) {
-    const double pressure = behind(rho);
-    if (gas.isBarotropic()) return gas.pressureOf(rho, 1) < pressure;
-    return gas.pressure(rho, rho * (energy + 0.5 * (pressure + before) * (volume - 1 / rho))) < pressure;
+  const double b = 0.5 * gas.shockSlope() * closing, speed = b + std::sqrt(b * b + c2);  // of the shock
+  if (closing * closing < 1e-12 * c2) return before + density * closing * speed;
+  const double energy = gas.energyOf(density, last) * volume + 0.5 * closing * closing;
+  const bool isBarotropic = gas.isBarotropic();
+  const auto excess = [&](double x) {  // of the jump of the velocity
+    const double rho = 1 / (volume - x);
+    const double of = isBarotropic ? gas.pressureOf(rho, 1) : gas.pressure(rho, rho * (energy + before * x));
+    if (!(of > before) && !isBarotropic && !(gas.heat(rho, of) > 0)) return closing;  // denser than the gas can be
+    return std::sqrt(std::max(0.0, (of - before) * x)) - closing;
   };
-  double least = density, most = 2 * density;
-  while (isTooLow(most) && most < 1e6 * density) most *= 2;
-  for (int k = 0; k < 100; ++k) {
-    const double middle = 0.5 * (least + most);
-    if (middle <= least || middle >= most) break;
-    (isTooLow(middle) ? least : most) = middle;
+  double least = 0, most = volume, x = std::min(closing * volume / speed, 0.999 * volume);
+  double found = excess(x), slope = closing / x;
+  for (int k = 0; k < 100 && std::abs(found) > 2e-15 * (std::sqrt(c2) + closing); ++k) {
+    (found < 0 ? least : most) = x;
+    double next = x - found / slope;
+    if (k >= 8 || !(next > least) || !(next < most)) next = 0.5 * (least + most);
+    if (next <= least || next >= most) break;
+    const double there = excess(next);
+    if ((there - found) / (next - x) > 0) slope = (there - found) / (next - x);
+    x = next;
+    found = there;
   }
-  return behind(most);
+  return before + closing * closing / x;
+}
+
+/// The greatest number of steps of fanPressure.
+inline constexpr int mostFanSteps = 32;
+
+/// The number of steps with which errors of fanPressure are round-off, if it is not too large: in each, the velocity
+/// and the speed of sound together change by less than .002 c.
+inline int fanSteps(const euler::Gas& gas, double density, double last, double speed) {
+  const double c = std::sqrt(gas.soundSpeedSquared(density, last));
+  const double rho = density * (1 - speed / c), of = gas.isBarotropic() ? last : last - density * c * speed;
+  if (!(rho > 0) || !(gas.heat(rho, of) > 0)) return mostFanSteps;
+  const double steps = (speed + std::abs(std::sqrt(gas.soundSpeedSquared(rho, of)) - c)) / (0.002 * c);
+  return steps < mostFanSteps ? static_cast<int>(steps) + 1 : mostFanSteps;
 }
 
 /// The pressure in the fan behind a wall that recedes at `speed` [m/s]: dp = -rho c du, drho = -rho / c du, integrated
 /// by the fourth-order Runge-Kutta method; 0 if no gas is left.
-inline double fanPressure(const euler::Gas& gas, double density, double last, double speed) {
-  constexpr int steps = 32;
+inline double fanPressure(const euler::Gas& gas, double density, double last, double speed, int steps) {
   const bool isBarotropic = gas.isBarotropic();
   struct Rate {
     double density, last;
@@ -67,8 +83,8 @@ inline double fanPressure(const euler::Gas& gas, double density, double last, do
 /// of the wall given.
 inline double wallPressure(const euler::Gas& gas, double density, double last, double closing) {
   if (closing == 0) return gas.pressureOf(density, last);
-  if (gas.law)
-    return closing > 0 ? shockPressure(gas, density, last, closing) : fanPressure(gas, density, last, -closing);
+  if (gas.law && closing > 0) return shockPressure(gas, density, last, closing);
+  if (gas.law) return fanPressure(gas, density, last, -closing, fanSteps(gas, density, last, -closing));
   const double pressure = last, stiff = pressure + gas.pInfinity, c2 = gas.gamma * stiff / density;
   if (closing > 0) {
     const double b = 0.25 * (gas.gamma + 1) * closing;
