@@ -31,9 +31,11 @@ void ParticleInstaller::writeEach(int number, const OnPatches& onPatches, const 
   const data::SharedSlots before = warehouse_->slots(Generation::fresh, number);
   data::Buffer outgrown = warehouse_->follow(Generation::fresh, number, Generation::fresh);
   const std::size_t bytes = warehouse_->table()[number].label->bytes;
+  const std::byte* memory = outgrown.capacity() > 0 ? outgrown.data() : warehouse_->memory(Generation::fresh, number);
   onPatches([&](const grid::Patch& patch, ParticleMaker& maker) {
     std::byte* to = warehouse_->variable(Generation::fresh, number, patch.id()).values;
-    const std::byte* from = outgrown.capacity() > 0 ? outgrown.data() + before->first[placeOf(patch)] * bytes : to;
+    const bool keeps = maker.keepsAll() || maker.keepsSome();  // perhaps from another place in the same memory
+    const std::byte* from = keeps ? memory + before->first[placeOf(patch)] * bytes : nullptr;
     if (!maker.keepsAll()) return writeOne(maker, from, to);
     const int owned = warehouse_->particles(Generation::fresh, material_, patch.id()).owned();
     if (owned > 0 && from != to) std::memcpy(to, from, static_cast<std::size_t>(owned) * bytes);

@@ -64,7 +64,8 @@ void stay(const Patch&, const Material&, ParticleView<const Vec<2>> from, Partic
 
 enum class How { keeping, addingAll };
 
-/// Removes about `removed` of 1000 particles; of each, a new one is made in a neighbouring cell, whose patch makes it.
+/// Removes about `removed` of 1000 particles; of each, new ones are made in neighbouring cells, whose patches make
+/// them: one, or two in the first steps, so that patches need more memory.
 void change(const Patch& patch, const Material&, ParticleMaker& maker, int removed, How how, const int* step,
             ParticleView<const Vec<2>> from, ParticleView<const ParticleId> ids, ParticleView<const double>,
             ParticleView<const Vec<3>>, std::vector<Vec<2>>& at, std::vector<double>& marks,
@@ -83,9 +84,12 @@ void change(const Patch& patch, const Material&, ParticleMaker& maker, int remov
       changes = true;
       if (isOwn && how == How::keeping) maker.keep(next, p);
       if (isOwn) next = p + 1;
-      const Index<2> to =
-          cell + Index<2>{{static_cast<int>(chance / 1000 % 3) - 1, static_cast<int>(chance / 3000 % 3) - 1}};
-      if (patch.cells().contains(to)) values.add(maker, to, scrambled(ids[p]), patch.level().cellCentre<2>(to));
+      for (std::uint64_t k = 0; k < (*step < 8 ? 2 : 1); ++k) {
+        const std::uint64_t way = scrambled(chance + k);
+        const Index<2> to = cell + Index<2>{{static_cast<int>(way % 3) - 1, static_cast<int>(way / 3 % 3) - 1}};
+        if (patch.cells().contains(to))
+          values.add(maker, to, scrambled(ids[p] + (k << 62)), patch.level().cellCentre<2>(to));
+      }
     }
   });
   if (how == How::keeping) changes ? maker.keep(next, from.owned()) : maker.keepAll();
