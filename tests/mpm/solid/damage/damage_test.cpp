@@ -255,20 +255,21 @@ TEST(Erosion, TakesParticlesWhosePlasticFlowIsUnstable) {
     Material material;
     material.model = std::make_shared<ModelOf<ElasticPlasticHp>>(metal);
     material.erosion.algorithm = Erosion::Algorithm::zeroStress;
-    const DamageGrowth growth{.oldDeformation = view(point.oldDeformation),
-                              .temperature = view(point.temperature),
-                              .oldDamage = view(zero),
-                              .oldThreshold = view(zero),
-                              .oldLocalized = view(sound),
-                              .oldFailureTime = view(zero),
-                              .deformation = view(std::as_const(sheared)),
-                              .volume = view(one),
-                              .state = view(end.plasticStrain),
-                              .stress = view(stress),
-                              .damage = view(damage),
-                              .threshold = view(threshold),
-                              .localized = view(localized),
-                              .failureTime = view(failureTime)};
+    const DamageGrowth<2> growth{.x = std::nullopt,
+                                 .oldDeformation = view(point.oldDeformation),
+                                 .temperature = view(point.temperature),
+                                 .oldDamage = view(zero),
+                                 .oldThreshold = view(zero),
+                                 .oldLocalized = view(sound),
+                                 .oldFailureTime = view(zero),
+                                 .deformation = view(std::as_const(sheared)),
+                                 .volume = view(one),
+                                 .state = view(end.plasticStrain),
+                                 .stress = view(stress),
+                                 .damage = view(damage),
+                                 .threshold = view(threshold),
+                                 .localized = view(localized),
+                                 .failureTime = view(failureTime)};
     computeDamage(grid.patches().front(), material, material.model->stateSize(), 0, point.timeStep, growth);
     return localized == 1;
   };
