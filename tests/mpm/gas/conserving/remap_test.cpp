@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/tasks/particle_maker.hpp"
@@ -37,14 +38,17 @@ void remapAll(const BoxCloud<D>& cloud, Made<D>& made) {
 }
 
 template <int D>
-void expectSameTotals(const BoxCloud<D>& cloud, const Made<D>& made) {
-  const Totals<D> before(cloud.mass, cloud.v, cloud.energy, cloud.affine);
+void expectTotals(const Totals<D>& before, const Made<D>& made) {
   const Totals<D> after(made.mass, made.v, made.energy, made.affine);
   EXPECT_NEAR(after.mass, before.mass, 1e-13 * before.mass);
   EXPECT_NEAR((after.momentum - before.momentum).norm(), 0, 1e-13 * before.mass);
   EXPECT_NEAR(after.energy, before.energy, 1e-13 * before.energy);
   for (const double e : made.energy) EXPECT_GT(e, 0);
   for (const double a : made.affine) EXPECT_GE(a, 0);
+}
+template <int D>
+void expectSameTotals(const BoxCloud<D>& cloud, const Made<D>& made) {
+  expectTotals<D>({cloud.mass, cloud.v, cloud.energy, cloud.affine}, made);
 }
 
 }  // namespace
@@ -131,15 +135,31 @@ TEST(Remap, LetsGasReachNoFartherIntoAnEmptyCell) {
   for (std::size_t p = 1; p < 5; ++p) EXPECT_NEAR(made.edges[p][0], h, 1e-13);
 }
 
-TEST(SplitLong, HalvesAlongEachLongAxisAndKeepsAll) {
+/// The ids of the particles of a patch after a redistribution, ascending.
+template <int D>
+std::vector<ParticleId> idsAfter(const BoxCloud<D>& cloud, Made<D>& made) {
+  data::ParticleSet set = cloud.set;
+  made.maker.makeSet(set, cloud.patch(), 0, cloud.ids.data());
+  std::vector<ParticleId> ids(static_cast<std::size_t>(set.owned()));
+  made.maker.writeIds(cloud.ids.data(), ids.data());
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+TEST(SplitLong, HalvesAlongEachLongAxisAndKeepsTheOthers) {
   BoxCloud<2> cloud(Index3{{7, 6, 1}});
   cloud.edges[20] = Vec<2>(1.9 * cloud.level.spacing(0), 1.6 * cloud.level.spacing(1));
   Made<2> made;
   splitLong<2>(cloud.patch(), 1.4, cloud.boxes(), made.maker, made.fresh());
 
-  expectSameTotals(cloud, made);
-  EXPECT_EQ(made.x.size(), cloud.x.size() + 3);
+  expectTotals<2>({{cloud.mass[20]}, {cloud.v[20]}, {cloud.energy[20]}, {cloud.affine[20]}}, made);
+  EXPECT_EQ(made.x.size(), 4);
   for (const Vec<2>& edges : made.edges) EXPECT_LE(edges[0], 1.4 * cloud.level.spacing(0));
+  const std::vector<ParticleId> ids = idsAfter(cloud, made);
+  std::vector<ParticleId> before = cloud.ids;
+  std::sort(before.begin(), before.end());
+  EXPECT_EQ(ids.size(), before.size() + 3);
+  EXPECT_TRUE(std::includes(ids.begin(), ids.end(), before.begin(), before.end()));
 }
 
 TEST(SplitLong, KeepsAllParticlesWhereNoneIsLong) {
