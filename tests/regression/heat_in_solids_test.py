@@ -150,6 +150,14 @@ class HeatInSolids(SceneTest):
                 energy = [line[1] for line in globals_of(self.scene(self.cut(text)), "ThermalEnergy")["ThermalEnergy"]]
                 self.assertLess(max(energy) - min(energy), 1e-11 * energy[0])
 
+    def test_thermal_contact_gives_no_heat_to_what_does_not_conduct(self):
+        text = self.cut(scene("gimp", 1e5)).replace("<delt_max>1<", "<delt_max>7e-4<")
+        text = text.replace("<thermal_conductivity>100000.0<", "<thermal_conductivity>0<", 1)
+        for material, temperature in (("material0", 300), ("material1", 400)):
+            state = last_state(self.scene(text), "p.temperature", material=material)
+            for found in state["p.temperature [K]"]:
+                self.assertAlmostEqual(float(found), temperature, delta=1e-9)
+
     def test_flows_of_heat_through_a_side_are_refused(self):
         flow = '<BCType id="all" label="Temperature" var="Neumann"><value>5</value></BCType></Face>'
         ended = run(self.scene(scene("gimp", 1e5).replace("</Face>", flow, 1)))

@@ -1,11 +1,12 @@
 """Words of scenes with solids that have no effect, or another one than they seem to have, are noted."""
 import pathlib
+import re
 import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
 from solids import RefusedSceneTest, globals_of  # noqa: E402
-from sus import run  # noqa: E402
+from sus import ROOT, run  # noqa: E402
 
 PRESSURE = """<pressure><geom_object><box><min>[0,.2,0]</min><max>{}</max></box></geom_object><load_curve><id>1</id>
 <time_point><time>0</time><load>1000</load></time_point></load_curve></pressure>"""
@@ -66,11 +67,20 @@ class IdleWords(RefusedSceneTest):
             self.assertNotIn("times the last one", self.noted(text))
 
     def test_what_must_be_given_is_asked_for(self):
-        self.assert_refused(scene(CURVES, HEAT.format("[.5,.2,.05]")),
-                            "missing tag <specific_heat>: a <heat_flux> heats it")
+        self.assert_refused(scene(CURVES, HEAT.format("[.5,.2,.05]")), "heats 'lower', which has no <specific_heat>")
+        lower, upper = scene(CURVES, HEAT.format("[.5,.2,.05]")).split('<material name="upper">')
+        warm = lower.replace("<geom_object>", "<specific_heat>100</specific_heat><geom_object>", 1)
+        self.assertEqual(run(self.scene(warm + '<material name="upper">' + upper), options=("--check",)).code, 0)
         expands = "<linear_thermal_expansion_coef>1e-5</linear_thermal_expansion_coef>"
         self.assert_refused(scene(model=expands, integrator="implicit"),
                             "expands with temperature, for which there is no tangent")
+
+    def test_bodies_in_gas_need_no_section_of_the_method(self):
+        text = (ROOT / "ups/fsi/warm_body.ups").read_text()
+        without = re.sub(r"\n  <MPM>.*?\n  </MPM>", "", text, count=1, flags=re.DOTALL)
+        self.assertNotEqual(without, text)
+        self.assertIn("<MPM>", without)  # of the materials
+        self.noted(without)
 
     def test_marked_particles_keep_their_strain_energy(self):
         """With PreserveStress, failed particles are only marked, and bear all stress: their energy counts."""

@@ -156,17 +156,11 @@ void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnos
     if (material.specificHeat > 0) continue;
     if (problem.method.conductsHeat && hasGivenTemperature(root, m))
       diagnostics.error(tags[m], "missing tag <specific_heat>: a side of the grid has a given Temperature");
-    const auto& loads = problem.start.loads.surfaces;
-    const bool isHeated = std::any_of(loads.begin(), loads.end(), [&](const SurfaceLoad& load) {
-      return load.kind == LoadKind::heatFlux && (load.material < 0 || load.material == static_cast<int>(m));
-    });
     if (material.model->changesTemperature())
       diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) +
                                      " is heated by plastic work");
     else if (material.thermalConductivity > 0 || sharesHeat)
       diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
-    else if (isHeated)
-      diagnostics.error(tags[m], "missing tag <specific_heat>: a <heat_flux> heats it");
   }
 }
 

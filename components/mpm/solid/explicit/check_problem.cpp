@@ -75,13 +75,14 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
 
 /// Adds notes on settings that other settings make ineffective.
 void noteIdle(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
-  const Element mpm = root.child("MPM").value();
+  const auto mpm = root.child("MPM");
+  if (!mpm) return;
   const auto usesPlanes = [](const Contact& contact) { return contact.usesPlanes(); };
   if (problem.method.contactHeats && std::any_of(problem.contacts.begin(), problem.contacts.end(), usesPlanes))
-    diagnostics.note(mpm.child("do_contact_friction_heating").value(),
+    diagnostics.note(mpm->child("do_contact_friction_heating").value(),
                      "has no effect on friction along planes (friction_LR, friction_LRVar, specified_friction), which "
                      "makes no heat");
-  const auto update = mpm.child("stress_update"), momentum = mpm.child("UseMomentumForm");
+  const auto update = mpm->child("stress_update"), momentum = mpm->child("UseMomentumForm");
   if (momentum && momentum->text() == "true" && update && update->text() != "musl")
     diagnostics.note(*update, "has no effect with <UseMomentumForm> true, which means musl");
 }

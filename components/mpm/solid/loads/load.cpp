@@ -1,5 +1,7 @@
 #include "components/mpm/solid/loads/load.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -190,10 +192,12 @@ Vec3 particleSpacing(const grid::Level& level, const Body& body, const Vec3& poi
 }
 
 void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<SurfaceLoad>& loads) {
+  std::vector<InputProblem> problems;
   for (SurfaceLoad& load : loads) {
     load.particles = 0;
     for (std::size_t m = 0; m < materials.size(); ++m) {
       if (load.material >= 0 && load.material != static_cast<int>(m)) continue;
+      const double before = load.particles;
       for (const Body& body : materials[m].bodies) {
         const auto count = [&](const Vec3& point) {
           if (load.acts(level, body, point)) load.particles += load.weight(point);
@@ -202,8 +206,12 @@ void countParticles(const grid::Level& level, const std::vector<Material>& mater
         if (level.dimension() == 2) forEachParticle<2>(level, body, count);
         if (level.dimension() == 3) forEachParticle<3>(level, body, count);
       }
+      if (load.kind == LoadKind::heatFlux && load.particles > before && !(materials[m].specificHeat > 0))
+        problems.push_back({load.where, "PhysicalBC/MPM/heat_flux",
+                            fmt::format("heats '{}', which has no <specific_heat>", materials[m].name)});
     }
   }
+  if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 void refuseIdle(const std::vector<SurfaceLoad>& loads) {

@@ -168,19 +168,29 @@ void computeInternalHeatRate(const Patch& patch, const Material& material, const
                              });
 }
 
-/// Gives the materials at a node one temperature before they conduct: the mean weighted by their heat capacities. So
-/// two bodies that touch conduct as one.
+/// The indices of the materials that conduct heat.
+inline std::vector<std::size_t> conductors(const std::vector<Material>& materials) {
+  std::vector<std::size_t> conducting;
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    if (materials[m].thermalConductivity > 0) conducting.push_back(m);
+  return conducting;
+}
+
+/// Gives the materials at a node that conduct heat one temperature before they do so: the mean weighted by their heat
+/// capacities. So two bodies that touch conduct as one.
 template <int D>
-void shareTemperature(const Patch&, const std::vector<Material>&, const std::vector<NodeView<const double>>& capacity,
+void shareTemperature(const Patch&, const std::vector<Material>& materials,
+                      const std::vector<NodeView<const double>>& capacity,
                       const std::vector<NodeView<double>>& temperatureNoBC,
                       const std::vector<NodeView<double>>& temperature) {
+  const std::vector<std::size_t> conducting = conductors(materials);
   const auto equalise = [&](const std::vector<NodeView<double>>& field, const Index<D>& node) {
     double heat = 0, total = 0;
-    for (std::size_t m = 0; m < capacity.size(); ++m) {
+    for (const std::size_t m : conducting) {
       heat += capacity[m][node] * field[m][node];
       total += capacity[m][node];
     }
-    for (std::size_t m = 0; m < capacity.size(); ++m)
+    for (const std::size_t m : conducting)
       if (capacity[m][node] > 0 && capacity[m][node] < total) field[m][node] = heat / total;
   };
   forEach<D>(capacity.front().box(), [&](const Index<D>& node) {
@@ -208,22 +218,23 @@ struct HeatOfMaterial {
   }
 };
 
-/// Computes the rates [K/s] with which materials that share a node exchange the heat that they gain in a step, so that
-/// their temperatures change alike. (Uintah equalises temperatures by changing those of particles: a bar that is cut in
-/// two then has a wrong steady temperature, the more so the shorter the steps.)
+/// Computes the rates [K/s] with which materials that conduct and share a node exchange the heat that they gain in a
+/// step, so that their temperatures change alike. (Uintah equalises temperatures by changing those of particles: a bar
+/// that is cut in two then has a wrong steady temperature, the more so the shorter the steps.)
 template <int D>
-void computeHeatExchange(const Patch&, const std::vector<Material>&, const std::vector<HeatOfMaterial>& materials,
+void computeHeatExchange(const Patch&, const std::vector<Material>& materials, const std::vector<HeatOfMaterial>& of,
                          double dt, const std::vector<NodeView<double>>& rate) {
+  const std::vector<std::size_t> conducting = conductors(materials);
+  for (const NodeView<double>& one : rate) one.fill(0.0);
   forEach<D>(rate.front().box(), [&](const Index<D>& node) {
     double heat = 0, total = 0;
-    for (const HeatOfMaterial& one : materials) {
-      if (one.capacity[node] > 0) heat += one.gain<D>(node, dt);
-      total += one.capacity[node];
+    for (const std::size_t m : conducting) {
+      if (of[m].capacity[node] > 0) heat += of[m].template gain<D>(node, dt);
+      total += of[m].capacity[node];
     }
-    for (std::size_t m = 0; m < materials.size(); ++m) {
-      const double own = materials[m].capacity[node];
-      rate[m][node] = own > 0 && own < total ? (heat / total - materials[m].gain<D>(node, dt) / own) / dt : 0.0;
-    }
+    for (const std::size_t m : conducting)
+      if (const double own = of[m].capacity[node]; own > 0 && own < total)
+        rate[m][node] = (heat / total - of[m].template gain<D>(node, dt) / own) / dt;
   });
 }
 
