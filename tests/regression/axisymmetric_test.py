@@ -59,6 +59,11 @@ class AxisymmetricTest(RefusedSceneTest):
                            "<axisymmetric_end>true</axisymmetric_end></cylinder>")
         self.assertAlmostEqual(end[1], below[1], delta=1e-9)
 
+    def test_steps_do_not_depend_on_the_width_of_the_axis_that_is_not_in_use(self):
+        steps = [run(self.scene(scene(box((0, .2, 0), (.5, .6, depth)), depth=depth))).report["steps"]
+                 for depth in (.05, .0005)]
+        self.assertEqual(*steps)
+
     def test_whole_circumferences_on_a_radian_are_noted(self):
         side = "<cylinder><bottom>[0,.2,0]</bottom><top>[0,.6,0]</top><radius>.5</radius></cylinder>"
         noted = run(self.scene(scene(box((0, .2, 0), (.5, .6, .05)), load=LOAD.format(side))), options=("--check",))

@@ -264,6 +264,9 @@ TEST(MieGruneisen, ByTemperatureAgreesWithThatByEnergy) {
   state.energy = 383 * 200;
   state.density = 8930;
   EXPECT_NEAR(byTemperature.meanStress(state), byEnergy.meanStress(state), -roundOff * byEnergy.meanStress(state));
+  state.dilatation = -0.01;  // compression heats: dT = -T Gamma_0 J tr D dt
+  EXPECT_NEAR(byTemperature.heating(state), 500 * 2.02 * 0.8 * 0.01, 1e-12);
+  EXPECT_EQ(byTemperature.heating(state), byEnergy.heating(state));
 }
 
 }  // namespace
