@@ -14,8 +14,8 @@ namespace tushar::mpm::solid::implicit {
 ///     C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
 ///
 /// where T_i is the mean of the particles' temperatures, weighted by their heat capacities, and Q_p the heat flow from
-/// loads. All materials have the same
-/// temperature at a node. A side of the grid has the temperature that the scene specifies; otherwise it is insulated.
+/// loads. All materials have the same temperature at a node. A side of the grid has the temperature that the scene
+/// specifies; otherwise it is insulated.
 template <int D>
 class NodalHeat {
  public:
@@ -28,6 +28,8 @@ class NodalHeat {
         common_size_(commonSize),
         particles_(particles),
         resets_grid_(resetsGrid),
+        cells_(occupiedCells<D>(patches, materials.size(),
+                                [&](std::size_t p, std::size_t m) { return particles[p][m].placed.x; })),
         nodes_(patches.front()->level(), ranks) {
     forEachPoint([&](const Point&, Touched touched) {
       for (const Touch<D>& touch : touched)
@@ -68,19 +70,23 @@ class NodalHeat {
     Matrix3 carried;                   ///< A in grad S = A^T grad_0 S: F^-1, or I if the grid is reset
   };
 
+  /// Calls `visit(point, touched)` for each particle of the rank, in an order that patches do not change.
   template <class Visit>
   void forEachPoint(Visit&& visit) const {
-    for (std::size_t p = 0; p < patches_.size(); ++p)
-      for (std::size_t m = 0; m < materials_.size(); ++m) {
-        const HeatedParticles<D>& heated = particles_[p][m];
-        shapes_.forEachTouched(*patches_[p], heated.placed, common_size_, [&](int k, Touched touched) {
-          const double mass = heated.mass[k], volume = mass / materials_[m].undeformedDensity();
-          const Matrix3& f = heated.deformation[k];
-          const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
-          const double flux = heated.heatFlux ? (*heated.heatFlux)[k] : 0.0;
-          visit(Point{materials_[m], mass, heated.temperature[k], volume * f.determinant(), flux, carried}, touched);
-        });
-      }
+    const HeatedParticles<D>* heated = nullptr;
+    const Material* material = nullptr;
+    const VisitTouches<D> visitOne = [&](int k, Touched touched) {
+      const double mass = heated->mass[k], volume = mass / material->undeformedDensity();
+      const Matrix3& f = heated->deformation[k];
+      const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
+      const double flux = heated->heatFlux ? (*heated->heatFlux)[k] : 0.0;
+      visit(Point{*material, mass, heated->temperature[k], volume * f.determinant(), flux, carried}, touched);
+    };
+    for (const OccupiedCell& of : cells_) {
+      heated = &particles_[of.patch][of.material];
+      material = &materials_[of.material];
+      shapes_.forEachTouched(*patches_[of.patch], of.cell, heated->placed, common_size_, visitOne);
+    }
   }
   void gather() {
     std::vector<double> sums(2 * nodes_.size(), 0.0);
@@ -161,6 +167,7 @@ class NodalHeat {
   Vec3 common_size_;
   const OfRank<HeatedParticles<D>>& particles_;
   bool resets_grid_;
+  std::vector<OccupiedCell> cells_;
   NodeMap<D> nodes_;
   std::vector<double> capacity_, before_, after_;  ///< heat capacity [J/K], temperature before and after the step [K]
   /// Smallest heat capacity of a node, for nodes to which particles contribute only gradients [J/K].

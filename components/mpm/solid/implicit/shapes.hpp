@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "components/mpm/solid/implicit/method.hpp"
 #include "components/mpm/solid/tasks/shaped_tasks.hpp"
@@ -28,12 +30,13 @@ inline constexpr std::size_t mostTouches = D == 1   ? 3
                                            : D == 2 ? 9
                                                     : 27;
 
-/// Calls `visit` for each particle of a patch, ordered by cell and id.
+/// Calls `visit` for each particle of some cells of a patch, ordered by cell and id.
 template <class Shape, int D = Shape::dimension>
-void forEachTouched(const Patch& patch, const Placed<D>& placed, const Vec3& commonSize, const VisitTouches<D>& visit) {
+void forEachTouched(const Patch& patch, const Box& cells, const Placed<D>& placed, const Vec3& commonSize,
+                    const VisitTouches<D>& visit) {
   static_assert(!Shape::deforms, "implicit steps support no shape functions that depend on F");
   std::array<Touch<D>, mostTouches<D>> touched;
-  forEachStencil<Shape>(patch, patch.cells(), placed, commonSize, [&](int p, const auto& stencil) {
+  forEachStencil<Shape>(patch, cells, placed, commonSize, [&](int p, const auto& stencil) {
     std::size_t count = 0;
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
       touched[count++] = {node, s, hoopOf(stencil, node), gradient};
@@ -47,7 +50,7 @@ template <int D>
 struct ImplicitShapes {
   ShapedTasks<D> shaped;
   int nodes;  ///< number of nodes along each axis to which a particle contributes
-  void (*forEachTouched)(const Patch& patch, const Placed<D>& placed, const Vec3& commonSize,
+  void (*forEachTouched)(const Patch& patch, const Box& cells, const Placed<D>& placed, const Vec3& commonSize,
                          const VisitTouches<D>& visit);
 
   int touches() const {
@@ -59,6 +62,33 @@ struct ImplicitShapes {
 template <class Shape>
 inline constexpr ImplicitShapes<Shape::dimension> shapesOf{
     .shaped = shapedTasks<Shape>(), .nodes = Shape::Stencil::nodes, .forEachTouched = forEachTouched<Shape>};
+
+/// A cell of a patch with particles of a material; patches are counted on the rank.
+struct OccupiedCell {
+  std::uint64_t number;  ///< that of the cell on the level
+  Box cell;
+  std::size_t patch, material;
+};
+/// The cells with particles on the patches of a rank, `x(patch, material)` their positions, in the order of cells and
+/// materials: sums over them are the same for any patches.
+template <int D, class Positions>
+std::vector<OccupiedCell> occupiedCells(const RankPatches& patches, std::size_t materials, Positions&& x) {
+  std::vector<OccupiedCell> cells;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (std::size_t m = 0; m < materials; ++m)
+      x(p, m).template forEachOccupied<D>(patches[p]->cells(), [&](const Index<D>& at, const data::ParticleRange&) {
+        Box cell = patches[p]->cells();
+        for (int d = 0; d < D; ++d) {
+          cell.lower[d] = at[d];
+          cell.upper[d] = at[d] + 1;
+        }
+        cells.push_back({patches[p]->level().template cellNumber<D>(at), cell, p, m});
+      });
+  std::sort(cells.begin(), cells.end(), [](const OccupiedCell& a, const OccupiedCell& b) {
+    return std::pair(a.number, a.material) < std::pair(b.number, b.material);
+  });
+  return cells;
+}
 
 /// The settings that are the same for all steps of a run.
 template <int D>
@@ -80,7 +110,7 @@ struct ImplicitSetup {
     return contact ? contact->prescribedVelocity(time) : std::nullopt;
   }
   void forEachTouched(const Patch& patch, const Placed<D>& placed, const VisitTouches<D>& visit) const {
-    shapes->forEachTouched(patch, placed, problem->method.commonSize, visit);
+    shapes->forEachTouched(patch, patch.cells(), placed, problem->method.commonSize, visit);
   }
 };
 

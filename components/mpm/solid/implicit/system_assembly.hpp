@@ -49,7 +49,8 @@ void ImplicitSystem<D>::findNodes(const RankPatches& patches) {
   for (PointSources<D>& from : sources_) {
     from.group.first = first;
     const Vec3& commonSize = method_.commonSize;
-    shapes_.forEachTouched(*from.patch, from.placed, commonSize, [&](int p, std::span<const Touch<D>> touched) {
+    const Box& cells = from.patch->cells();
+    shapes_.forEachTouched(*from.patch, cells, from.placed, commonSize, [&](int p, std::span<const Touch<D>> touched) {
       std::size_t at = (first + p) * touches_;
       for (const Touch<D>& of : touched) {
         const auto image = map_.imageOf(of.node);
