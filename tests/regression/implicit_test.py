@@ -225,8 +225,9 @@ class Implicit(SceneTest):
 
     def test_patches_change_no_bit_of_heat_and_of_free_masters(self):
         """Until 30 November 2026, sums at nodes were in the order of the patches."""
-        disc = MASTER.replace("<box><min>[.2,.2,0]</min><max>[.5,.5,.05]</max></box>",
-                              "<cylinder><bottom>[.4,.4,0]</bottom><top>[.4,.4,.05]</top><radius>.3</radius></cylinder>")
+        disc = MASTER.replace(
+            "<box><min>[.2,.2,0]</min><max>[.5,.5,.05]</max></box>",
+            "<cylinder><bottom>[.4,.4,0]</bottom><top>[.4,.4,.05]</top><radius>.3</radius></cylinder>")
         self.assertNotEqual(disc, MASTER)
         free = re.sub("<filename>.*?</filename>", "", disc).replace("<velocity>[0,0,0]", "<velocity>[.3*y,.7*x,0]")
         other = re.search("<material>.*?</material>", free, re.S).group().replace(".4,.4", ".9,.4").replace(

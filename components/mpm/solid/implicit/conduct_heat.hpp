@@ -28,9 +28,12 @@ class NodalHeat {
         common_size_(commonSize),
         particles_(particles),
         resets_grid_(resetsGrid),
-        cells_(occupiedCells<D>(patches, materials.size(),
-                                [&](std::size_t p, std::size_t m) { return particles[p][m].placed.x; })),
         nodes_(patches.front()->level(), ranks) {
+    std::vector<ParticlesOnPatch<D>> list;
+    for (std::size_t p = 0; p < patches.size(); ++p)
+      for (std::size_t m = 0; m < materials.size(); ++m)
+        list.push_back({patches[p], particles[p][m].placed.x, static_cast<int>(m)});
+    cells_ = occupiedCells<D>(list);
     forEachPoint([&](const Point&, Touched touched) {
       for (const Touch<D>& touch : touched)
         if (touch.s != 0 || touch.gradient.squaredNorm() > 0) nodes_.touch(nodes_.imageOf(touch.node).node);
@@ -83,9 +86,10 @@ class NodalHeat {
       visit(Point{*material, mass, heated->temperature[k], volume * f.determinant(), flux, carried}, touched);
     };
     for (const OccupiedCell& of : cells_) {
-      heated = &particles_[of.patch][of.material];
-      material = &materials_[of.material];
-      shapes_.forEachTouched(*patches_[of.patch], of.cell, heated->placed, common_size_, visitOne);
+      const std::size_t patch = of.source / materials_.size(), m = of.source % materials_.size();
+      heated = &particles_[patch][m];
+      material = &materials_[m];
+      shapes_.forEachTouched(*patches_[patch], of.cell, heated->placed, common_size_, visitOne);
     }
   }
   void gather() {

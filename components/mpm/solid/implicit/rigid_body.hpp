@@ -62,16 +62,18 @@ class RigidBody {
   template <class Visit>
   void forEachShare(const RankPatches& patches, const ImplicitSetup<D>& setup, int material,
                     const OfRank<SolidParticles<D>>& particles, Visit&& visit) const {
-    const auto placed = [&](std::size_t p, std::size_t) { return particles[p][material].placed.x; };
-    for (const OccupiedCell& of : occupiedCells<D>(patches, 1, placed)) {
-      const SolidParticles<D>& body = particles[of.patch][material];
+    std::vector<ParticlesOnPatch<D>> list;
+    for (std::size_t p = 0; p < patches.size(); ++p)
+      list.push_back({patches[p], particles[p][material].placed.x, material});
+    for (const OccupiedCell& of : occupiedCells<D>(list)) {
+      const SolidParticles<D>& body = particles[of.source][material];
       const auto visitOne = [&](int k, std::span<const Touch<D>> touched) {
         for (const Touch<D>& touch : touched) {
           const auto image = nodes_.imageOf(touch.node);
           if (touch.s > 0) visit(image.node, touch.s * body.mass[k], image.sign.cwiseProduct(body.velocity[k]));
         }
       };
-      setup.shapes->forEachTouched(*patches[of.patch], of.cell, body.placed, setup.problem->method.commonSize,
+      setup.shapes->forEachTouched(*patches[of.source], of.cell, body.placed, setup.problem->method.commonSize,
                                    visitOne);
     }
   }

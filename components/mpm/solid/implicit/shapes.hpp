@@ -63,27 +63,39 @@ template <class Shape>
 inline constexpr ImplicitShapes<Shape::dimension> shapesOf{
     .shaped = shapedTasks<Shape>(), .nodes = Shape::Stencil::nodes, .forEachTouched = forEachTouched<Shape>};
 
-/// A cell of a patch with particles of a material; patches are counted on the rank.
+/// The particles of a material on a patch of the rank.
+template <int D>
+struct ParticlesOnPatch {
+  const Patch* patch;
+  ParticleView<const Vec<D>> x;
+  int material;
+};
+/// The particles of a material in a cell; `source` is the place of their patch and material in a list.
 struct OccupiedCell {
   std::uint64_t number;  ///< that of the cell on the level
+  int material;
+  std::size_t source;
   Box cell;
-  std::size_t patch, material;
+  data::ParticleRange particles;
 };
-/// The cells with particles on the patches of a rank, `x(patch, material)` their positions, in the order of cells and
-/// materials: sums over them are the same for any patches.
-template <int D, class Positions>
-std::vector<OccupiedCell> occupiedCells(const RankPatches& patches, std::size_t materials, Positions&& x) {
+/// The cells with particles of a list, in the order of cells and materials: sums over them are the same for any
+/// patches.
+template <int D>
+std::vector<OccupiedCell> occupiedCells(const std::vector<ParticlesOnPatch<D>>& list) {
   std::vector<OccupiedCell> cells;
-  for (std::size_t p = 0; p < patches.size(); ++p)
-    for (std::size_t m = 0; m < materials; ++m)
-      x(p, m).template forEachOccupied<D>(patches[p]->cells(), [&](const Index<D>& at, const data::ParticleRange&) {
-        Box cell = patches[p]->cells();
-        for (int d = 0; d < D; ++d) {
-          cell.lower[d] = at[d];
-          cell.upper[d] = at[d] + 1;
-        }
-        cells.push_back({patches[p]->level().template cellNumber<D>(at), cell, p, m});
-      });
+  for (std::size_t source = 0; source < list.size(); ++source) {
+    const auto& [patch, x, material] = list[source];
+    forEach<D>(patch->cells(), [&](const Index<D>& at) {
+      const data::ParticleRange range = x.in(at);
+      if (range.empty()) return;
+      Box cell = patch->cells();
+      for (int d = 0; d < D; ++d) {
+        cell.lower[d] = at[d];
+        cell.upper[d] = at[d] + 1;
+      }
+      cells.push_back({patch->level().template cellNumber<D>(at), material, source, cell, range});
+    });
+  }
   std::sort(cells.begin(), cells.end(), [](const OccupiedCell& a, const OccupiedCell& b) {
     return std::pair(a.number, a.material) < std::pair(b.number, b.material);
   });

@@ -74,8 +74,8 @@ class ImplicitSystem : public solvers::NonlinearProblem {
  private:
   template <class Visit>
   void forEachRun(Visit&& visit) const {
-    for (const Run& run : runs_)
-      visit(sources_[run.source], PointRun{&sources_[run.source].group, run.from, run.count});
+    for (const OccupiedCell& run : runs_)
+      visit(sources_[run.source], PointRun{&sources_[run.source].group, run.particles.first, run.particles.size()});
   }
   /// Nodes are processed in groups of this size, which fill the lanes of a register.
   static constexpr int lanes_ = 4;
@@ -154,12 +154,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   double dt_;
   NodeMap<D> map_;
   std::vector<PointSources<D>> sources_;
-  struct Run {
-    std::uint64_t cell;
-    std::size_t source;
-    int from, count;
-  };
-  std::vector<Run> runs_;  ///< particles cell by cell: the order of every sum, for any patches
+  std::vector<OccupiedCell> runs_;  ///< particles cell by cell: the order of every sum, for any patches
   std::vector<NodeTouch<D>> touch_;
   PointStates states_;
   Local local_;

@@ -87,17 +87,9 @@ void ImplicitSystem<D>::carrySlopes() {
 
 template <int D>
 void ImplicitSystem<D>::findRuns() {
-  for (std::size_t s = 0; s < sources_.size(); ++s) {
-    const PointSources<D>& from = sources_[s];
-    forEach<D>(from.patch->cells(), [&](const Index<D>& cell) {
-      const data::ParticleRange range = from.placed.x.in(cell);
-      if (!range.empty()) runs_.push_back({map_.level().template cellNumber<D>(cell), s, range.first, range.size()});
-    });
-  }
-  std::stable_sort(runs_.begin(), runs_.end(), [&](const Run& a, const Run& b) {
-    return std::pair(a.cell, sources_[a.source].group.material->index) <
-           std::pair(b.cell, sources_[b.source].group.material->index);
-  });
+  std::vector<ParticlesOnPatch<D>> list;
+  for (const PointSources<D>& from : sources_) list.push_back({from.patch, from.placed.x, from.group.material->index});
+  runs_ = occupiedCells<D>(list);
 }
 
 template <int D>
