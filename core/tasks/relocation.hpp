@@ -108,7 +108,7 @@ class Relocation {
   struct PatchMoves {
     std::vector<double> nodes;       ///< positions of nodes along the first axis
     std::vector<int> departed;       ///< indices of the patch's particles that leave their cell, ascending
-    int crossing = 0;                ///< number of those that leave their row of cells
+    int crossing = 0;                ///< number of those that leave their row of cells together
     std::vector<Outgoing> outgoing;  ///< those departed particles that move to other patches
     std::vector<Incoming> incoming;  ///< particles that enter a cell of the patch
     std::vector<Arrival> arrivals;
@@ -141,8 +141,8 @@ class Relocation {
     std::vector<PatchMoves> patches;
     ParticleMigration migration;
     bool goFar = false;
-    /// Whether values move to new memory, because that is faster: if many particles change their places, long runs of
-    /// them often do so together.
+    /// Whether values move to new memory, because that is faster: if many particles change their rows together, in long
+    /// runs. (Single ones would make as many runs, which take more memory than they save time.)
     bool toNewMemory = false;
     int id = -1;             ///< index of the variable that contains the ids, once it is known
     std::size_t packed = 0;  ///< number of particles whose values are packed, on all patches

@@ -165,7 +165,6 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
       if (level.boxes()) to = cellBesideInnerSides<D>(level, cell, x[p], to);
       if (to == cell) continue;
       moves.departed.push_back(p);
-      moves.crossing += leavesRow<D>(cell, to) ? 1 : 0;
       if (isNear && isPlain)
         enter(patch, widened(to), ids[p], moves);
       else
